@@ -1,0 +1,1 @@
+"""taichi_spmhd."""

@@ -1,0 +1,173 @@
+"""The right-hand side: list, density, close, gather, then ONE fused pair loop that sums all terms.
+
+Hooks run part by part, in the order in which each part's needs are made by others; terms add up at compile time, so a
+term that is not listed leaves no instruction.
+"""
+
+from .errors import RunError
+from .pairs import TINY
+from .runtime import ti
+from .types import struct
+
+MOST_BUILDS = 100  # of the list within one evaluation; h may grow by 30 % in each
+
+
+@ti.func
+def add(total: ti.template(), part):
+    """total.key += part.key for every key of part that anybody evolves (heat is dropped where no energy is)."""
+    for key in ti.static(part.keys):
+        if ti.static(key in total.keys):
+            total[key] += part[key]
+
+
+@ti.func
+def bits(x):
+    """A positive number as an integer of the same order: an integer maximum vectorises, a float maximum does not."""
+    return ti.bit_cast(ti.cast(x, ti.f32), ti.i32)
+
+
+@ti.data_oriented
+class RHS:
+    """Evaluates the rates of all evolved members and the longest stable time step."""
+
+    def __init__(self, particles, neighbours, pairs, density, choice, kernel, parts, cour, force):
+        self.p, self.near, self.pairs, self.density = particles, neighbours, pairs, density
+        self.choice, self.kernel, self.parts = choice, kernel, parts
+        self.cour, self.force = cour, force
+        self.Sums = struct({k: v for part in parts for k, v in part.gathers.items()}, particles.dim)
+        extra = {k: v for part in parts for k, v in part.sums.items()}
+        self.Total = struct({**particles.evolved, **extra}, particles.dim)
+        self.keys = {hook: self.with_hook(hook) for hook in ("close", "gather", "gathered", "settle")}
+        self.pair_terms, self.local_terms = self.with_hook("pair"), self.with_hook("local")
+        self.after_terms = self.with_hook("after")
+        self.speed_terms, self.dt_terms = self.with_hook("speed"), self.with_hook("max_dt")
+
+    def with_hook(self, hook: str) -> tuple:
+        return tuple(part for part in self.parts if part.has(hook))
+
+    def evaluate(self, t: float, dt: float) -> float:
+        """Rates of the present state; t and dt (the step being taken, 0 for none) are what terms see as `now`.
+
+        Returns the longest stable step. Raises RunError where h cannot be found (a particle without neighbours).
+        """
+        self.neighbourhood()
+        self.close(t, dt)
+        if self.keys["gather"]:
+            self.gather(self.near.near, self.near.count, t, dt)
+        return self.rates(self.near.near, self.near.count, t, dt)
+
+    def neighbourhood(self) -> None:
+        """A complete list, and density and h that belong to the present positions."""
+        if self.near.builds == 0 or not self.near.holds():
+            self.near.build()
+        for _ in range(MOST_BUILDS):
+            self.density.solve(self.near.near, self.near.count)
+            if self.near.holds():
+                return
+            self.near.build()
+        raise RunError("density: a smoothing length grows without end; a particle has lost all its neighbours")
+
+    @ti.func
+    def apply(self, n, part: ti.template()):
+        """Write the members a hook returned."""
+        for key in ti.static(part.keys):
+            self.p.state.get_member_field(key)[n] = part[key]
+
+    @ti.kernel
+    def open(self):
+        """Evolved members from primitive ones; each part's own members follow, for the parts after it."""
+        for n in range(self.p.n):
+            for part in ti.static(self.parts):
+                now = ti.Struct(t=0.0, dt=0.0)
+                if ti.static(part.has("open")):
+                    self.apply(n, part.open(self.p.state[n], now))
+                if ti.static(part.has("close")):
+                    self.apply(n, part.close(self.p.state[n], now))
+
+    @ti.kernel
+    def close(self, t: float, dt: float):
+        for n in range(self.p.n):
+            for part in ti.static(self.keys["close"]):
+                now = ti.Struct(t=t, dt=dt)
+                self.apply(n, part.close(self.p.state[n], now))
+
+    @ti.kernel
+    def settle(self, t: float, dt: float):
+        for n in range(self.p.n):
+            for part in ti.static(self.keys["settle"]):
+                now = ti.Struct(t=t, dt=dt)
+                self.apply(n, part.settle(self.p.state[n], now))
+
+    @ti.func
+    def weights(self, i, j):
+        return self.choice.weights(i, j, self.pairs.between(i, j), self.kernel)
+
+    @ti.kernel
+    def gather(self, near: ti.types.ndarray(dtype=ti.i32, ndim=2), rows: ti.types.ndarray(dtype=ti.i32, ndim=1),
+               t: float, dt: float):  # fmt: skip
+        """Neighbour sums some part asked for, then the members made from them."""
+        for n in range(self.p.n):
+            i, sums = self.p.state[n], self.Sums(0.0)
+            for k in range(rows[n]):
+                j = self.pairs.record(near[n, k])
+                w = self.weights(i, j)
+                for part in ti.static(self.keys["gather"]):
+                    add(sums, part.gather(i, j, w))
+            now = ti.Struct(t=t, dt=dt)
+            for part in ti.static(self.keys["gathered"]):
+                self.apply(n, part.gathered(i, sums, now))
+
+    @ti.kernel
+    def rates(self, near: ti.types.ndarray(dtype=ti.i32, ndim=2), rows: ti.types.ndarray(dtype=ti.i32, ndim=1),
+              t: float, dt: float) -> ti.f32:  # fmt: skip
+        """The fused loop; returns the longest stable step of all particles."""
+        longest = ti.cast(1e30, ti.f32)
+        for n in range(self.p.n):
+            now = ti.Struct(t=t, dt=dt)
+            i, total, fastest = self.p.state[n], self.Total(0.0), bits(self.p.state[n].vw)
+            for k in range(rows[n]):
+                j = self.pairs.record(near[n, k])
+                w = self.weights(i, j)
+                for term in ti.static(self.pair_terms):
+                    add(total, term.pair(i, j, w, now))
+                for term in ti.static(self.speed_terms):
+                    fastest = ti.max(fastest, bits(ti.select(w.Gi + w.Gj < 0.0, term.speed(i, j, w, now), 0.0)))
+            for term in ti.static(self.local_terms):
+                add(total, term.local(i, now))
+            for term in ti.static(self.after_terms):
+                add(total, term.after(i, total, now))
+            for key in ti.static(self.p.evolved):
+                self.p.rate.get_member_field(key)[n] = total[key]
+            ti.atomic_min(longest, ti.cast(self.step_of(i, total, ti.bit_cast(fastest, ti.f32), now), ti.f32))
+        return longest
+
+    @ti.func
+    def step_of(self, i, total, fastest, now):
+        """min of C_cour h / v_sig, C_force sqrt(h / |dv/dt|) and what the terms allow."""
+        step = self.cour * i.h / (ti.cast(fastest, float) + TINY)
+        step = ti.min(step, self.force * ti.sqrt(i.h / (total.v.norm() + TINY)))
+        for term in ti.static(self.dt_terms):
+            step = ti.min(step, term.max_dt(i, now))
+        return step
+
+    @ti.kernel
+    def share(self, term: ti.template(), n: ti.i32, near: ti.types.ndarray(dtype=ti.i32, ndim=2),
+              rows: ti.types.ndarray(dtype=ti.i32, ndim=1), out: ti.types.ndarray(ndim=1)):  # fmt: skip
+        """What one term adds to the rates of one particle, summed in absolute value over the evolved members."""
+        for _ in range(1):
+            now = ti.Struct(t=0.0, dt=0.0)
+            i, total = self.p.state[n], self.Total(0.0)
+            if ti.static(term.has("pair")):
+                for k in range(rows[n]):
+                    j = self.pairs.record(near[n, k])
+                    add(total, term.pair(i, j, self.weights(i, j), now))
+            if ti.static(term.has("local")):
+                add(total, term.local(i, now))
+            if ti.static(term.has("after")):
+                add(total, term.after(i, total, now))
+            out[0] = 0.0
+            for key in ti.static(self.p.evolved):
+                if ti.static(key in self.p.vectors):
+                    out[0] += ti.abs(total[key]).sum()
+                else:
+                    out[0] += ti.abs(total[key])

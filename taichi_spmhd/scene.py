@@ -1,0 +1,128 @@
+"""Scene: what to simulate, as frozen data, and the checks at the door."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+import numpy as np
+
+from .boundary import Boundary, everywhere
+from .box import Box, as_box
+from .density import SumMass
+from .energy import Thermal
+from .eos import Adiabatic, Isothermal
+from .errors import InputError
+from .kernels import CubicSpline, Kernel
+from .picture import Picture
+from .stepper import LeapfrogKDK
+from .terms import Part, Term
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """Terms add, choices replace.
+
+    box: lengths or intervals per axis; positions: (N, d); start(x) -> {"rho", "v", "P" or "u", "B", "psi", "mass"}, arrays
+    (N,) or (N, 3) or numbers; terms: the effects; eos, kernel, density, energy, stepper, boundary: one choice each.
+    exact(x, t) -> {member: array}: the solution where there is one, `measure` the member whose error is quoted;
+    reference: path of a stored map. Without "mass" the mass is rho times volume / N.
+    """
+
+    box: Box
+    positions: np.ndarray
+    start: Callable
+    terms: tuple
+    eos: object = field(default_factory=Adiabatic)
+    kernel: Kernel = field(default_factory=CubicSpline)
+    density: SumMass = field(default_factory=SumMass)
+    energy: Thermal = field(default_factory=Thermal)
+    stepper: object = field(default_factory=LeapfrogKDK)
+    boundary: Boundary = field(default_factory=everywhere)
+    t_end: float = 1.0
+    picture: Picture = field(default_factory=Picture)
+    exact: Callable | None = None
+    reference: Path | None = None
+    measure: str | None = None
+
+    def __post_init__(self):
+        object.__setattr__(self, "box", as_box(self.box))
+        x = np.ascontiguousarray(self.positions, dtype=float)
+        object.__setattr__(self, "positions", x[:, None] if x.ndim == 1 else x)
+        object.__setattr__(self, "terms", tuple(self.terms))
+        check(self)
+
+    @property
+    def dim(self) -> int:
+        return self.positions.shape[1]
+
+    @property
+    def parts(self) -> tuple:
+        """Choices that take part in an evaluation, then the terms, in an order in which every need is made before."""
+        energy = () if isinstance(self.eos, Isothermal) else (self.energy,)
+        return in_order((*energy, self.eos, *self.terms))
+
+    def plus(self, *terms: Term) -> "Scene":
+        """The same scene with more terms."""
+        return replace(self, terms=(*self.terms, *terms))
+
+    def without(self, *kinds: type) -> "Scene":
+        """The same scene without the terms of these classes."""
+        return replace(self, terms=tuple(term for term in self.terms if not isinstance(term, kinds)))
+
+    def but(self, **changes) -> "Scene":
+        """The same scene with other choices or other numbers."""
+        return replace(self, **changes)
+
+
+def in_order(parts: tuple) -> tuple:
+    """Parts sorted so that whoever reads a member comes after whoever makes it."""
+    waiting, done, made = list(parts), [], set()
+    ahead = {name for part in parts for name in part.makes}
+    while waiting:
+        ready = next((p for p in waiting if all(n in made or n not in ahead or n in p.makes for n in p.reads)), waiting[0])
+        waiting.remove(ready)
+        done.append(ready)
+        made |= set(ready.makes)
+    return tuple(done)
+
+
+GIVEN = {"x", "v", "m", "h", "rho", "Omega"}  # members every particle has
+CURES = {
+    "B": "list Induction() (Stress and everything magnetic need an evolved field)",
+    "u": "use eos=Adiabatic(gamma): an isothermal gas has no thermal energy",
+    "vw": "list Pressure() or, with a magnetic field, Stress()",
+}
+
+
+def check(scene: Scene) -> None:
+    """Raises InputError, with the cure, for a scene that cannot be simulated."""
+    if scene.positions.ndim != 2 or scene.dim != scene.box.dim:
+        raise InputError(f"positions of shape {scene.positions.shape} do not fit a {scene.box.dim}-D box: give (N, {scene.box.dim})")
+    if len(scene.positions) == 0:
+        raise InputError("positions: there are no particles; raise nx")
+    if not scene.t_end >= 0:
+        raise InputError(f"t_end = {scene.t_end} must not be negative")
+    for term in scene.terms:
+        if not isinstance(term, Part):
+            raise InputError(f"terms: {term!r} is not a term; give instances, for example Stress()")
+    names = [type(term).__name__ for term in scene.terms]
+    twice = {name for name in names if names.count(name) > 1}
+    if twice:
+        raise InputError(f"terms: {', '.join(sorted(twice))} listed twice; each effect once")
+    check_members(scene)
+
+
+def check_members(scene: Scene) -> None:
+    """Every member a part reads must be given, made or evolved by somebody; every scene needs a signal speed."""
+    there = GIVEN | {name for part in scene.parts for name in (*part.makes, *part.evolves, *part.keeps)}
+    for part in scene.parts:
+        for name in part.reads:
+            if name not in there:
+                cure = CURES.get(name, "list the term that makes it")
+                raise InputError(f"{type(part).__name__} reads {name}, which nothing in this scene provides: {cure}")
+    if "vw" not in there or not any("v" in part.evolves for part in scene.parts):
+        raise InputError("terms: nothing moves this gas; list Pressure() or, with a magnetic field, Stress()")
+    makers = [name for part in scene.parts for name in part.makes]
+    if len(set(makers)) < len(makers):
+        clash = sorted({name for name in makers if makers.count(name) > 1})
+        raise InputError(f"terms: {', '.join(clash)} made by two terms; list only one of Pressure and Stress")

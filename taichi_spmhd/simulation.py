@@ -1,0 +1,162 @@
+"""Simulation: a scene at work. Wiring and stepping only."""
+
+import time
+from collections.abc import Iterator
+
+import numpy as np
+
+from . import runtime, state
+from .density import Density
+from .neighbours import Neighbours
+from .pairs import Pairs
+from .particles import Particles
+from .rhs import RHS
+from .scene import Scene
+from .stepper import Advance
+from .types import integer
+
+SMALLEST_STEP = 1e-10  # of the time to simulate: a step shorter than this has collapsed
+
+
+class Simulation:
+    """The particles of a scene and what moves them.
+
+        sim = Simulation(scene); sim.run(until=0.5); sim["rho"], sim.time, sim.steps, len(sim)
+
+    Raises InputError for a start that cannot be simulated, RunError (from step, run, frames) when a run goes wrong.
+    """
+
+    def __init__(self, scene: Scene, start: dict | None = None):
+        runtime.ensure()
+        self.scene, self.dim = scene, scene.dim
+        self.time, self.steps, self.floors, self.ill = 0.0, 0, 0, 0
+        self.seconds, self.seconds_compile, self.dt, self.longest = 0.0, 0.0, 0.0, 0.0
+        values = start if start is not None else state.opening(scene)
+        self._build(scene, len(values["m"]))
+        state.fill(self, values)
+
+    def _build(self, scene: Scene, n: int) -> None:
+        kernel = scene.kernel.at(self.dim)
+        state.check_box(scene, kernel, n)
+        self.parts = tuple(part.at(self.dim) for part in scene.parts)
+        members = {k: v for part in self.parts for k, v in part.members().items()}
+        evolved = {k: v for part in self.parts for k, v in part.evolves.items()}
+        frozen = scene.boundary.frozen
+        self.particles = p = Particles(n, self.dim, members | ({"held": integer} if frozen else {}), evolved)
+        self.saved = scene.stepper.prepare(p)
+        p.companions.append((p.old, p.rate))
+        p.finish()
+        p.ghost()
+        self.neighbours = Neighbours(p, scene.box, scene.boundary, kernel)
+        self.pairs = Pairs(p, scene.box, scene.boundary)
+        self.density = Density(p, self.pairs, kernel, scene.density)
+        cour, force = scene.stepper.cour, scene.stepper.force
+        self.rhs = RHS(p, self.neighbours, self.pairs, self.density, scene.density, kernel, self.parts, cour, force)
+        self.advance = Advance(p, self.pairs, bool(frozen))
+
+    def begin(self) -> None:
+        """The first evaluation: density, evolved members from the primitive ones, rates. Done by itself when needed."""
+        if self.longest:
+            return
+        clock = time.perf_counter()
+        self.rhs.neighbourhood()
+        state.open_members(self)
+        self.longest = self.rhs.evaluate(self.time, 0.0)
+        self.seconds_compile += time.perf_counter() - clock
+
+    def step(self, dt: float | None = None) -> None:
+        """One time step, the longest stable one unless dt is given."""
+        self.begin()
+        dt = self.longest if dt is None else dt
+        if not dt > SMALLEST_STEP * max(self.scene.t_end, 1e-30) or self.time + dt == self.time:
+            state.fail(self, f"the time step collapsed to {dt:.3g}")
+        clock = time.perf_counter()
+        self.dt = dt
+        self.longest = self.scene.stepper.step(self, dt)
+        if self.ill:
+            state.fail(self, "not finite or negative thermal energy")
+        if self.rhs.keys["settle"]:
+            self.rhs.settle(self.time, dt)
+        self.time += dt
+        self.steps += 1
+        spent = time.perf_counter() - clock
+        if self.steps == 1:
+            self.seconds_compile += spent  # the first step compiles the stepper's kernels
+        else:
+            self.seconds += spent
+
+    def run(self, until: float | None = None) -> "Simulation":
+        """Steps up to a time (default: the scene's t_end) in equal parts of what remains."""
+        until = self.scene.t_end if until is None else until
+        self.begin()
+        while self.time < until * (1 - 1e-12):
+            remaining = until - self.time
+            parts = int(np.ceil(remaining / self.longest * (1 - 1e-6))) if self.longest > 0 else 0
+            self.step(remaining / parts if parts > 0 else 0.0)
+            if parts == 1:
+                self.time = until
+        return self
+
+    def frames(self, n: int) -> Iterator["Simulation"]:
+        """Runs to t_end, stopping at n equally spaced times, the start included (n = 1: the end only)."""
+        times = np.linspace(0.0, self.scene.t_end, n) if n > 1 else [self.scene.t_end]
+        for until in times:
+            if until >= self.time:
+                yield self.run(float(until))
+
+    def __len__(self) -> int:
+        return self.particles.n
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        """A member as a numpy copy, (N,) or (N, components), in the order in which the particles were given."""
+        columns = self.columns()
+        if name not in columns:
+            raise KeyError(f"no member {name!r}; there are {', '.join(sorted(columns))}")
+        return columns[name]
+
+    def columns(self) -> dict[str, np.ndarray]:
+        """All members at the present time, one read for all."""
+        self.begin()
+        self.rhs.close(self.time, 0.0)
+        return state.present(self)
+
+    def rates(self) -> dict[str, np.ndarray]:
+        """d/dt of every evolved member at the present state; the run is not disturbed."""
+        self.begin()
+        return state.rates(self)
+
+    def sample(self, name: str, points: np.ndarray) -> np.ndarray:
+        """Normalised SPH interpolation sum m/rho A W / sum m/rho W at points (M, d) -> (M,) or (M, 3)."""
+        from .diagnostics.sample import interpolate
+
+        return interpolate(self, name, points)
+
+    def summary(self) -> dict:
+        """What summary.json says of a variant."""
+        from .diagnostics.summary import summary
+
+        return summary(self)
+
+    def save(self, path) -> None:
+        """Write all it takes to go on with the same bits; atomic: an existing file is replaced only by a complete one."""
+        from .checkpoint import save
+
+        save(self, path)
+
+    @classmethod
+    def load(cls, path, scene: Scene) -> "Simulation":
+        """A simulation that goes on where save stopped, to the same bits."""
+        from .checkpoint import load
+
+        return load(cls, path, scene)
+
+    def close(self) -> None:
+        """Give the device memory back."""
+        self.particles.close()
+
+    def __enter__(self) -> "Simulation":
+        return self
+
+    def __exit__(self, *_) -> None:
+        self.close()
+

@@ -1,0 +1,184 @@
+"""The state of a simulation: how it starts, what is read from it, and what is said when it breaks."""
+
+import numpy as np
+
+from .boundary import LOWER
+from .eos import Isothermal
+from .errors import InputError, RunError
+
+VECTORS = ("v", "B")
+KNOWN = ("rho", "v", "P", "u", "B", "psi", "mass")
+
+
+def opening(scene) -> dict[str, np.ndarray]:
+    """What the scene's start(x) says, as full arrays: x, m, rho, v, P or u, B, psi. Raises InputError, one line, with the cure."""
+    x = scene.positions
+    given = scene.start(x)
+    for name in given:
+        if name not in KNOWN:
+            raise InputError(f"start: unknown quantity {name!r}; it may give {', '.join(KNOWN)}")
+    if "rho" not in given and "mass" not in given:
+        raise InputError("start: give rho (or mass)")
+    values = {name: broad(name, value, len(x)) for name, value in given.items()}
+    volume = scene.box.volume / len(x)
+    values["m"] = values.pop("mass") if "mass" in values else values["rho"] * volume
+    values.setdefault("rho", values["m"] / volume)
+    values.setdefault("v", np.zeros((len(x), 3)))
+    for part in scene.parts:
+        if "B" in part.reads and "B" not in values:
+            raise InputError(f"start: {type(part).__name__} needs B; give B as an array (N, 3)")
+    if not isinstance(scene.eos, Isothermal) and not {"P", "u"} & set(values):
+        raise InputError("start: give the pressure P (or the thermal energy u)")
+    check_start(x, values)
+    return {"x": x, **values}
+
+
+def broad(name: str, value, n: int) -> np.ndarray:
+    """A number, vector or array as (n,) or (n, 3)."""
+    shape = (n, 3) if name in VECTORS else (n,)
+    try:
+        return np.array(np.broadcast_to(np.asarray(value, float), shape))
+    except (ValueError, TypeError) as error:
+        raise InputError(f"start: {name} has shape {np.shape(value)}; it must fit {shape}") from error
+
+
+def check_start(x: np.ndarray, values: dict) -> None:
+    """Finite numbers, positive masses, densities and pressures."""
+    for name, array in {"positions": x, **values}.items():
+        bad = ~np.isfinite(array).reshape(len(x), -1).all(axis=1)
+        if bad.any():
+            raise InputError(f"start: {name} of particle {np.argmax(bad)} is not finite; mend start() or the positions")
+    for name in ("m", "rho", "P", "u"):
+        if name in values and not (values[name] > 0).all():
+            k = int(np.argmin(values[name]))
+            raise InputError(f"start: {name} of particle {k} is {values[name][k]:.3g}; it must be positive")
+
+
+def check_box(scene, kernel, n: int) -> None:
+    """A periodic box holds two supports along every axis, or a pair would meet twice."""
+    spacing = (scene.box.volume / n) ** (1 / scene.dim)
+    support = kernel.support * kernel.h_fact * spacing
+    for a in range(scene.dim):
+        if scene.boundary.periodic[a] and scene.box.size[a] < 2 * support:
+            raise InputError(
+                f"box: {scene.box.size[a]:.3g} along {'xyz'[a]} is narrower than two kernel supports "
+                f"({2 * support:.3g}); raise nx, widen the box or take a smaller kernel"
+            )
+
+
+def check_apart(x: np.ndarray, box, periodic: tuple) -> None:
+    """No two particles on one spot: their order would be undefined and nothing would ever part them."""
+    if not all((x[:, a] >= box.lo[a]).all() and (x[:, a] <= box.hi[a]).all() for a in range(box.dim) if periodic[a]):
+        size, lo = np.array(box.size), np.array(box.lo)
+        wrapped = np.where(periodic[: box.dim], lo + np.mod(x - lo, size), x)
+    else:
+        wrapped = x
+    order = np.lexsort(wrapped.T)
+    same = (np.diff(wrapped[order], axis=0) == 0).all(axis=1)
+    if same.any():
+        k = int(np.argmax(same))
+        raise InputError(
+            f"positions: particles {order[k]} and {order[k + 1]} are on one spot {wrapped[order[k]].tolist()}; move one of them"
+        )
+
+
+def fill(sim, values: dict) -> None:
+    """Write the start into the particles: records in the caller's order, h from the density the scene gives."""
+    p, scene, kernel = sim.particles, sim.scene, sim.neighbours.kernel
+    check_apart(values["x"], scene.box, scene.boundary.periodic)
+    h = kernel.h_fact * (values["m"] / values["rho"]) ** (1 / sim.dim)
+    own = {**values, "h": h, "hinv": 1 / h, "h0": h, "x0": values["x"], "held": held(scene, values["x"])}
+    table = np.zeros((p.n, p.width), p.word)
+    for name, kind, first in p.layout:
+        if name in own:
+            table[:, first : first + kind] = np.asarray(own[name]).reshape(p.n, -1)
+    p.admit(table, np.arange(p.n, dtype=np.int32))
+    sim.given_u = values.get("u")
+
+
+def held(scene, x: np.ndarray) -> np.ndarray:
+    """1 for the particles of the frozen ends."""
+    out = np.zeros(len(x))
+    for axis, side, width in scene.boundary.frozen:
+        edge = x[:, axis] - scene.box.lo[axis] if side == LOWER else scene.box.hi[axis] - x[:, axis]
+        out[edge < width] = 1
+    return out
+
+
+def open_members(sim) -> None:
+    """Evolved members from primitive ones, now that the summed density is known."""
+    if sim.given_u is not None and not isinstance(sim.scene.eos, Isothermal):
+        p = sim.particles
+        table, ids = p.table()
+        first = {name: first for name, _, first in p.layout}
+        table[:, first["P"]] = (sim.scene.eos.gamma - 1) * table[:, first["rho"]] * sim.given_u[ids]
+        p.admit(table, ids)
+    sim.rhs.open()
+
+
+def present(sim) -> dict[str, np.ndarray]:
+    """Members by name in the caller's order, positions folded into the box."""
+    columns = sim.particles.read()
+    box = sim.scene.box
+    for a in range(sim.dim):
+        if sim.scene.boundary.periodic[a]:
+            x = box.lo[a] + np.mod(columns["x"][:, a] - box.lo[a], box.size[a])
+            columns["x"][:, a] = np.where(x < box.hi[a], x, box.lo[a])
+    return columns
+
+
+def rates(sim) -> dict[str, np.ndarray]:
+    """d/dt of every evolved member in the caller's order; the state is put back as it was, to the bit."""
+    p = sim.particles
+    table, ids = p.table()
+    before, builds = p.rates(), sim.neighbours.builds
+    sim.rhs.evaluate(sim.time, 0.0)
+    _, now_ids = p.table()
+    out = {}
+    for name, values in p.rates().items():
+        out[name] = np.empty_like(values)
+        out[name][now_ids] = values
+    p.admit(table, ids)
+    p.admit_rates(before)
+    if sim.neighbours.builds != builds:
+        sim.neighbours.rebuild()
+    return out
+
+
+def fail(sim, what: str) -> None:
+    """Raises RunError with the particle, the place, the term with the largest share in its rates, and the time."""
+    table, ids = sim.particles.table()
+    memory, name = worst(sim, table)
+    columns = {name: table[:, first : first + kind] for name, kind, first in sim.particles.layout}
+    place = ", ".join(f"{c:.4g}" for c in columns["x"][memory])
+    term = loudest(sim, memory)
+    raise RunError(
+        f"{what} at t = {sim.time:.6g}, step {sim.steps + 1}: particle {ids[memory]} at ({place}), member {name}, "
+        f"largest rate from {term}; try a smaller time step (stepper cour), more particles, or a remedy for this term"
+    )
+
+
+def worst(sim, table: np.ndarray) -> tuple[int, str]:
+    """The particle (in memory order) and the member that are ill, else those with the shortest step."""
+    rates = sim.particles.rates()
+    for name, kind, first in sim.particles.layout:
+        values = table[:, first : first + kind]
+        bad = ~np.isfinite(values).all(axis=1)
+        if name == "u":
+            bad |= values[:, 0] <= 0
+        if name in rates:
+            bad |= ~np.isfinite(rates[name]).reshape(len(table), -1).all(axis=1)
+            if bad.any():
+                return int(np.argmax(bad)), name
+    return int(np.argmax(np.abs(rates["v"]).sum(axis=1))), "v"
+
+
+def loudest(sim, memory: int) -> str:
+    """The term whose contribution to this particle's rates is not finite, or the largest."""
+    shares = {}
+    for term in sim.rhs.parts:
+        if term.has("pair") or term.has("local"):
+            out = np.zeros(1, sim.particles.word)
+            sim.rhs.share(term, memory, sim.neighbours.near, sim.neighbours.count, out)
+            shares[type(term).__name__] = np.inf if not np.isfinite(out[0]) else float(out[0])
+    return max(shares, key=shares.get) if shares else "no term"

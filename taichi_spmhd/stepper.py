@@ -1,0 +1,163 @@
+"""Time steppers.  (a choice)   Each starts and ends with rates that belong to the state."""
+
+from dataclasses import dataclass
+
+from .pairs import Pairs
+from .runtime import ti
+from .terms.base import Choice
+from .types import struct, vecd
+
+
+@ti.func
+def broken(x):
+    """Not a number, infinite or beyond 1e38: by the exponent bits, since fast math removes x != x."""
+    return ti.cast((ti.bit_cast(ti.cast(x, ti.f32), ti.i32) & 0x7F800000) == 0x7F800000, ti.i32)
+
+
+@ti.data_oriented
+class Advance:
+    """The kernels steppers are made of. `free` is 0 for held particles, which only drift with their own velocity."""
+
+    def __init__(self, particles, pairs: Pairs, held: bool):
+        self.p, self.pairs, self.held = particles, pairs, held
+
+    @ti.func
+    def ill(self, value, key: ti.template()):
+        """Whether an evolved member is not finite, or u not positive."""
+        found = 0
+        if ti.static(key in self.p.vectors):
+            for c in ti.static(range(3)):
+                found |= broken(value[c])
+        else:
+            found = broken(value)
+        if ti.static(key == "u"):
+            found |= ti.cast(value <= 0.0, ti.i32)
+        return found
+
+    @ti.func
+    def free(self, s):
+        free = ti.cast(1.0, float)
+        if ti.static(self.held):
+            free -= ti.cast(s.held, float)
+        return free
+
+    @ti.kernel
+    def predict(self, dt: float) -> ti.i32:
+        """x += dt (v + dt/2 a) and every evolved member q += dt dq/dt, the old rates kept; returns the floors of u hit."""
+        floors = 0
+        for n in range(self.p.n):
+            s, r = self.p.state[n], self.p.rate[n]
+            free = self.free(s)
+            self.p.old[n] = r
+            for a in ti.static(range(self.p.dim)):
+                self.p.state[n].x[a] = s.x[a] + dt * (s.v[a] + 0.5 * dt * free * r.v[a])
+            for key in ti.static(r.keys):
+                value = s[key] + dt * free * r[key]
+                if ti.static(key == "u"):
+                    floors += ti.cast(value <= 0.0, ti.i32)
+                    value = ti.select(value > 0.0, value, 0.5 * s[key])
+                self.p.state.get_member_field(key)[n] = value
+        return floors
+
+    @ti.kernel
+    def correct(self, dt: float) -> ti.i32:
+        """q += dt/2 (new rate - old rate); returns whether any particle is ill."""
+        found = 0
+        for n in range(self.p.n):
+            s, new, old = self.p.state[n], self.p.rate[n], self.p.old[n]
+            half = 0.5 * dt * self.free(s)
+            for key in ti.static(new.keys):
+                value = s[key] + half * (new[key] - old[key])
+                self.p.state.get_member_field(key)[n] = value
+                ti.atomic_or(found, self.ill(value, key))
+        return found
+
+    @ti.kernel
+    def combine(self, saved: ti.template(), a: float, b: float, dt: float) -> ti.i32:
+        """y = a y0 + b (y + dt dy/dt), a + b = 1; positions by their distance to y0, since they may have been wrapped."""
+        found = 0
+        for n in range(self.p.n):
+            s, r, start = self.p.state[n], self.p.rate[n], saved[n]
+            free = self.free(s)
+            back = self.pairs.between(start, s)
+            for c in ti.static(range(self.p.dim)):
+                self.p.state[n].x[c] = s.x[c] + a * back[c] + b * dt * s.v[c]
+            for key in ti.static(r.keys):
+                value = a * start[key] + b * (s[key] + dt * free * r[key])
+                self.p.state.get_member_field(key)[n] = value
+                ti.atomic_or(found, self.ill(value, key))
+        return found
+
+    @ti.kernel
+    def save(self, saved: ti.template()):
+        for n in range(self.p.n):
+            saved[n].x = self.p.state[n].x
+            for key in ti.static(self.p.evolved):
+                saved.get_member_field(key)[n] = self.p.state.get_member_field(key)[n]
+
+
+class Stepper(Choice):
+    """What steppers share: the safety factors of the time step, C_cour h / v_sig and C_force sqrt(h/|a|)."""
+
+    def prepare(self, particles) -> object:
+        """Extra fields, placed before the memory is allocated."""
+        return None
+
+
+@dataclass(frozen=True)
+class LeapfrogKDK(Stepper):
+    """v^(1/2) = v + dt/2 a,  x += dt v^(1/2),  v = v^(1/2) + dt/2 a_new:   kick, drift, kick; one evaluation a step
+
+    u, B/rho and psi/c_h likewise; rates are evaluated with v, u, b predicted to the end of the step (Price et al. 2018).
+    Second order; reversible for smooth forces.
+    """
+
+    cour: float = 0.3
+    force: float = 0.25
+
+    def step(self, sim, dt: float) -> float:
+        """One step; returns the longest next one."""
+        sim.floors += sim.advance.predict(dt)
+        longest = sim.rhs.evaluate(sim.time + dt, dt)
+        sim.ill = sim.advance.correct(dt)
+        return longest
+
+
+class RungeKutta(Stepper):
+    """y <- a y0 + b (y + dt f(y)) for each stage (a, b)."""
+
+    stages: tuple = ()
+
+    def prepare(self, particles) -> object:
+        kind = struct({"x": vecd, **particles.evolved}, particles.dim)
+        saved, spare = particles.place(kind), particles.place(kind)
+        particles.companions.append((saved, spare))
+        return saved
+
+    def step(self, sim, dt: float) -> float:
+        """One step; returns the longest next one."""
+        sim.advance.save(sim.saved)
+        for a, b in self.stages:
+            sim.ill = sim.advance.combine(sim.saved, a, b, dt)
+            if sim.ill:
+                return 0.0
+            longest = sim.rhs.evaluate(sim.time + dt, dt)
+        return longest
+
+
+@dataclass(frozen=True)
+class Heun(RungeKutta):
+    """y1 = y + dt f(y),   y = (y + y1 + dt f(y1))/2:   second order, two evaluations a step"""
+
+    cour: float = 0.3
+    force: float = 0.25
+    stages = ((0.0, 1.0), (0.5, 0.5))
+
+
+@dataclass(frozen=True)
+class SSPRK3(RungeKutta):
+    """Shu & Osher 1988, third order, three evaluations a step: energy drifts with dt^3"""
+
+    cour: float = 0.3
+    force: float = 0.25
+    stages = ((0.0, 1.0), (0.75, 0.25), (1 / 3, 2 / 3))

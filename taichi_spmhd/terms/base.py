@@ -1,0 +1,68 @@
+"""The contract of a part: a term (effect that adds to the rates) or a choice declares members and offers small hooks.
+
+A part is a frozen dataclass. Everything below is optional.
+
+    reads    {name: type}    members it looks at
+    evolves  {name: type}    members integrated in time; its hooks return rates under these names
+    makes    {name: type}    members it computes from evolved ones in `close`
+    keeps    {name: type}    members saved with the state but neither evolved nor given by the scene
+    gathers  {name: type}    neighbour sums its `gather` returns
+    sums     {name: type}    sums over pairs its `pair` returns beside rates, for its `after`
+
+    at(self, dim) -> part                the part for a number of dimensions (plain Python, when a Simulation is built)
+    open(self, i, now) -> Struct         evolved members from primitive ones, once at t = 0
+    close(self, i, now) -> Struct        the members it makes, at every evaluation
+    gather(self, i, j, w) -> Struct      neighbour sums needed before the rates (names of `gathers`)
+    gathered(self, i, sums, now) -> Struct   members from those sums (names of `makes` or `keeps`)
+    pair(self, i, j, w, now) -> Struct   what neighbour j adds to the rates of i
+    local(self, i, now) -> Struct        what i adds to its own rates
+    after(self, i, total, now) -> Struct what it adds to the rates once all pairs are summed (total: rates and sums)
+    speed(self, i, j, w, now)            a signal speed between i and j, >= 0; the largest one limits the time step
+    max_dt(self, i, now)                 the longest step this effect allows otherwise
+    settle(self, i, now) -> Struct       members renewed in place at the end of a step
+
+`i` and `j` are particle records, `w` the pair's weights (w.e, w.r, w.Gi, w.Gj), `now` the present moment (now.t, now.dt = the step being taken, 0 before the first).
+A `pair` is branch-free (min, max, select) and vanishes by itself for j = i and outside the support, because it is
+built from w.Gi, w.Gj and differences. Numbers of a frozen term are compile-time constants.
+"""
+
+from dataclasses import fields
+
+
+class Part:
+    """What terms and choices share: nothing is read, evolved, made or kept unless a class says so."""
+
+    reads: dict = {}
+    evolves: dict = {}
+    makes: dict = {}
+    keeps: dict = {}
+    gathers: dict = {}
+    sums: dict = {}
+
+    def at(self, dim: int) -> "Part":
+        """This part for a number of dimensions."""
+        return self
+
+    def has(self, hook: str) -> bool:
+        """Whether this part offers the hook."""
+        return callable(getattr(self, hook, None))
+
+    def members(self) -> dict:
+        """Every member this part touches."""
+        return {**self.reads, **self.keeps, **self.makes, **self.evolves}
+
+    def equation(self) -> str:
+        """The first line of the docstring: the equation."""
+        return (type(self).__doc__ or type(self).__name__).strip().splitlines()[0]
+
+    def __str__(self) -> str:
+        given = [f"{f.name}={getattr(self, f.name)!r}" for f in fields(self) if getattr(self, f.name) != f.default]
+        return f"{type(self).__name__}({', '.join(given)})"
+
+
+class Term(Part):
+    """An effect that adds to the rates; a scene lists any number, each class once."""
+
+
+class Choice(Part):
+    """One of several alternatives, of which a scene has exactly one: equation of state, energy, density, ..."""
