@@ -20,7 +20,7 @@ class Particles:
     def __init__(self, n: int, dim: int, members: dict, evolved: dict):
         self.n, self.dim = n, dim
         self.members = {**HOT, **members, **COLD}
-        self.evolved = evolved
+        self.evolved, self.names = evolved, tuple(evolved)
         self.vectors = tuple(name for name, kind in self.members.items() if kind is vec3)
         self.State, self.Rate = struct(self.members, dim), struct(evolved, dim)
         self.tree = ti.FieldsBuilder()

@@ -136,7 +136,7 @@ class RHS:
                 add(total, term.local(i, now))
             for term in ti.static(self.after_terms):
                 add(total, term.after(i, total, now))
-            for key in ti.static(self.p.evolved):
+            for key in ti.static(self.p.names):
                 self.p.rate.get_member_field(key)[n] = total[key]
             ti.atomic_min(longest, ti.cast(self.step_of(i, total, ti.bit_cast(fastest, ti.f32), now), ti.f32))
         return longest
@@ -166,7 +166,7 @@ class RHS:
             if ti.static(term.has("after")):
                 add(total, term.after(i, total, now))
             out[0] = 0.0
-            for key in ti.static(self.p.evolved):
+            for key in ti.static(self.p.names):
                 if ti.static(key in self.p.vectors):
                     out[0] += ti.abs(total[key]).sum()
                 else:

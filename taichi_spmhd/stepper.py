@@ -92,7 +92,7 @@ class Advance:
     def save(self, saved: ti.template()):
         for n in range(self.p.n):
             saved[n].x = self.p.state[n].x
-            for key in ti.static(self.p.evolved):
+            for key in ti.static(self.p.names):
                 saved.get_member_field(key)[n] = self.p.state.get_member_field(key)[n]
 
 
