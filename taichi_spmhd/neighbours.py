@@ -21,6 +21,12 @@ LANES = 8  # rows are filled up to a multiple of this
 IMAGE = 26  # bits of an entry that hold the particle; above them, per axis, which wall it is mirrored at
 
 
+def code_of(image: tuple[int, int, int]) -> int:
+    """The walls of an image as the upper bits of a signed 32-bit entry."""
+    code = sum(side << (IMAGE + 2 * a) for a, side in enumerate(image))
+    return code - 2**32 if code >= 2**31 else code
+
+
 @ti.data_oriented
 class Neighbours:
     """Builds the list and knows whether it still holds."""
@@ -28,7 +34,7 @@ class Neighbours:
     def __init__(self, particles: Particles, box, boundary, kernel):
         self.p, self.dim, self.kernel, self.support = particles, particles.dim, kernel, kernel.support
         self.lo, self.hi, self.size, self.periodic = box.lo, box.hi, box.size, boundary.periodic
-        self.images = boundary.images
+        self.images = tuple((image, code_of(image)) for image in boundary.images)
         self.cells = Cells(particles, box, boundary.periodic)
         n = particles.n
         self.width = LANES * int(np.ceil(1.6 * kernel.neighbours * PAD**self.dim / LANES))
@@ -129,8 +135,8 @@ class Neighbours:
             for a in ti.static(range(self.dim)):
                 here[a] = at[a, n]
             found = self.around(n, here, self.cells.cell(self.p.state[n].x0, grid, shape), 0, 0, shape, first, near, at, bit)
-            for image in ti.static(self.images):
-                found = self.mirrored(n, here, image, found, shape, first, near, at, bit, grid)
+            for image, code in ti.static(self.images):
+                found = self.mirrored(n, here, image, code, found, shape, first, near, at, bit, grid)
             rest = found
             while rest % LANES != 0 and rest < near.shape[1]:
                 near[n, rest] = self.p.n
@@ -140,8 +146,9 @@ class Neighbours:
         return most
 
     @ti.func
-    def mirrored(self, n, here, image: ti.template(), found, shape: ti.template(), first: ti.template(),
-                 near: ti.template(), at: ti.template(), bit: ti.template(), grid: ti.template()):  # fmt: skip
+    def mirrored(self, n, here, image: ti.template(), code: ti.template(), found, shape: ti.template(),
+                 first: ti.template(), near: ti.template(), at: ti.template(), bit: ti.template(),
+                 grid: ti.template()):  # fmt: skip
         """Neighbours behind walls are those of the mirrored particle: the entry remembers the walls."""
         x, there = self.p.state[n].x0, here
         for a in ti.static(range(self.dim)):
@@ -149,7 +156,6 @@ class Neighbours:
                 wall = self.lo[a] if ti.static(image[a] == LOWER) else self.hi[a]
                 x[a] = 2.0 * wall - x[a]
                 there[a] = ti.cast(x[a] - self.lo[a], ti.f32)
-        code = ti.static(sum(image[a] << (IMAGE + 2 * a) for a in range(self.dim)))
         return self.around(n, there, self.cells.cell(x, grid, shape), code, found, shape, first, near, at, bit)
 
     def list(self) -> None:

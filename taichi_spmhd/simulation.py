@@ -1,7 +1,7 @@
 """Simulation: a scene at work. Wiring and stepping only."""
 
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import numpy as np
 
@@ -85,8 +85,11 @@ class Simulation:
         else:
             self.seconds += spent
 
-    def run(self, until: float | None = None) -> "Simulation":
-        """Steps up to a time (default: the scene's t_end) in equal parts of what remains."""
+    def run(self, until: float | None = None, watch: Callable | None = None) -> "Simulation":
+        """Steps up to a time (default: the scene's t_end) in equal parts of what remains.
+
+        watch(sim) is called after every step; it may raise to stop.
+        """
         until = self.scene.t_end if until is None else until
         self.begin()
         while self.time < until * (1 - 1e-12):
@@ -95,6 +98,8 @@ class Simulation:
             self.step(remaining / parts if parts > 0 else 0.0)
             if parts == 1:
                 self.time = until
+            if watch is not None:
+                watch(self)
         return self
 
     def frames(self, n: int) -> Iterator["Simulation"]:

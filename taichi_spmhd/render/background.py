@@ -28,7 +28,7 @@ def _ticks(axis, length: int, apart: int):
     """Round tick values, at most one every `apart` pixels, so that labels never touch."""
     from matplotlib.ticker import MaxNLocator
 
-    axis.set_major_locator(MaxNLocator(nbins=max(1, min(6, length // apart)), steps=[1, 2, 2.5, 5, 10]))
+    axis.set_major_locator(MaxNLocator(nbins=max(1, min(6, length // apart)), steps=[1, 2, 5, 10]))
 
 
 def _field(figure, layout: Layout, n: int, box: Box, picture: Picture, limits):
@@ -41,7 +41,7 @@ def _field(figure, layout: Layout, n: int, box: Box, picture: Picture, limits):
         axes.set_yscale("log")
     else:
         _ticks(axes.yaxis, rect.height, 50)
-    _ticks(axes.xaxis, rect.width, 62)
+    _ticks(axes.xaxis, rect.width, 52)
     axes.set_xlabel("x", fontsize=LARGE, labelpad=1, color=INK)
     if n % layout.columns == 0:
         axes.set_ylabel(picture.tex if profile else "y", fontsize=LARGE, labelpad=2, color=INK)
@@ -68,7 +68,7 @@ def _colour_bar(figure, layout: Layout, picture: Picture, limits):
     axes = _axes(figure, layout, layout.bar)
     bar = figure.colorbar(ScalarMappable(norm, colours), cax=axes)
     bar.ax.tick_params(labelsize=SMALL, labelcolor=INK)
-    bar.ax.set_title(picture.tex, fontsize=LARGE, color=INK, pad=9)
+    bar.ax.set_title(picture.tex, fontsize=LARGE, color=INK, pad=9, loc="left")
     if not picture.log:
         _ticks(bar.ax.yaxis, layout.bar.height, 60)
 

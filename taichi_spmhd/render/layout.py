@@ -7,12 +7,13 @@ from ..box import Box
 from ..errors import InputError
 from ..picture import Picture
 
-LEFT, RIGHT = 74, 112  # axis labels; colour bar and its numbers
+LEFT, RIGHT = 74, 126  # axis labels; colour bar and its numbers
 TITLE, LABEL, LINE = 58, 30, 17  # heights of the title, a panel's label, a line of small text
 TICKS = 50  # tick labels and axis label below a panel
 COUNT, HISTOGRAM, HISTOGRAM_TICKS = 30, 96, 46
-GUTTER, BOTTOM = 26, 14
-TALLEST = 0.82  # of the width: frames fit a projector
+GUTTER, BOTTOM = 38, 14
+TALLEST, LEAST_HEIGHT = 0.82, 600  # of the width: frames fit a projector; but pixels enough for what is asked
+SIDE_BY_SIDE = 0.75  # a row of panels may be this much smaller than a block of them and is still preferred
 PROFILE_RATIO = 6.0  # boxes longer than this are strips: value against x says more than a ribbon of particles
 
 
@@ -70,18 +71,19 @@ def _scale(count, columns, box, picture, lines, footer) -> float:
     """Pixels per unit length of the box with this many columns of panels."""
     rows, (above, below) = ceil(count / columns), _margins(picture, lines)
     wide = (picture.width - LEFT - RIGHT - GUTTER * (columns - 1)) / columns
-    high = (TALLEST * picture.width - TITLE - BOTTOM - LINE * footer) / rows - above - below
+    high = (max(TALLEST * picture.width, LEAST_HEIGHT) - TITLE - BOTTOM - LINE * footer) / rows - above - below
     return min(wide / _shape(box)[0], high / _shape(box)[1])
 
 
 def arrange(count: int, box: Box, picture: Picture, lines: int = 0, footer: int = 0) -> Layout:
-    """The layout for `count` panels: the number of columns that makes them largest.
+    """The layout for `count` panels: as many side by side as go without making them much smaller.
 
     lines: lines of small text under each label; footer: lines of small text at the foot of the frame.
     Raises InputError where the panels would be too small to see.
     """
-    columns = max(range(1, count + 1), key=lambda n: (_scale(count, n, box, picture, lines, footer), -n))
-    scale = _scale(count, columns, box, picture, lines, footer)
+    scales = {n: _scale(count, n, box, picture, lines, footer) for n in range(1, count + 1)}
+    columns = max(n for n in scales if scales[n] >= SIDE_BY_SIDE * max(scales.values()))
+    scale = max(scales[columns], 0.0)
     wide, high = (round(scale * length) for length in _shape(box))
     if min(wide, high) < 24:
         raise InputError(f"Picture: {count} panels do not fit into width={picture.width}; give a larger width")

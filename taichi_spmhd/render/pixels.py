@@ -100,9 +100,7 @@ def draw(
     spacing = h if spacing is None else np.asarray(spacing, dtype=float)
     places, scale = place(box, x, size, periodic), size[0] / box.size[0]
     if kind == "sph":
-        return _draw_sph(
-            places, values, h * scale, spacing * scale, x.shape[1], size, palette, limits, log, periodic
-        )
+        return _draw_sph(places, values, h * scale, spacing * scale, x.shape[1], size, palette, limits, log, periodic)
     colour = paint(values, palette, limits, log)
     if kind == "nearest":
         return draw_nearest(places, colour, size, periodic)
