@@ -10,8 +10,10 @@ from dataclasses import dataclass
 from .errors import InputError
 from .runtime import ti
 from .terms.base import Choice
+from .types import real
 
 NEWTON, BISECTION = 12, 60  # iterations at the most
+SUMS = {"mass": real, "slope": real}
 GROWTH = 1.3  # of h within one solve: beyond it the list is built anew first
 
 
@@ -45,19 +47,19 @@ class Density:
 
     def __init__(self, particles, pairs, kernel, choice):
         self.p, self.pairs, self.kernel, self.dim = particles, pairs, kernel, particles.dim
+        self.choice = choice
         self.tolerance = max(choice.tolerance, 4e-6 if particles.word().itemsize == 4 else 0.0)  # f32 reaches no more
 
     @ti.func
     def sums(self, i, h, rows, n, near: ti.template()):
         """sum_j m_j f(q) and sum_j m_j (d f + q f'), q = r/h, without norms."""
-        mass, slope, hinv = ti.cast(0.0, float), ti.cast(0.0, float), 1.0 / h
-        for k in range(rows):
-            j = self.pairs.record(near[n, k])
-            d = self.pairs.between(i, j)
-            q = ti.sqrt(d.dot(d)) * hinv
-            mass += j.m * self.kernel.f(q)
-            slope += j.m * self.kernel.dh(q)
-        return mass, slope
+        total, hinv = self.pairs.lanes.totals(SUMS), 1.0 / h
+        for block in range(rows // self.pairs.lanes.width):
+            j = self.pairs.theirs(near, n, block, ("x", "m"))
+            q = self.pairs.between(i, j).norm() * hinv
+            total.add(ti.Struct(mass=j.m * self.kernel.f(q), slope=j.m * self.kernel.dh(q)), self.choice)
+        sums = self.pairs.lanes.summed(total)
+        return sums.mass, sums.slope
 
     @ti.func
     def wanted(self, i):
@@ -100,7 +102,7 @@ class Density:
     @ti.kernel
     def solve(self, near: ti.types.ndarray(dtype=ti.i32, ndim=2), rows: ti.types.ndarray(dtype=ti.i32, ndim=1)):
         for n in range(self.p.n):
-            i = self.p.state[n]
+            i = self.pairs.mine(n, ("x", "m", "h", "h0"))
             h, done, mass, slope = self.iterate(i, rows[n], n, near)
             if done == 0 or h >= GROWTH * i.h0:
                 mass, slope = self.sums(i, h, rows[n], n, near)

@@ -1,48 +1,81 @@
-"""From a list entry to a neighbour's record and the pair's geometry: periodic images, mirror images."""
+"""From list entries to the records of neighbours and the pair's geometry: periodic images, mirror images, lanes."""
 
 from .boundary import LOWER, UPPER
+from .lanes import Lanes, Vector3, traced
 from .neighbours import IMAGE
 from .runtime import ti
+from .types import integer
 
 TINY = 1e-30  # keeps r > 0 for the pair (i, i), whose unit vector is then zero
 
 
 @ti.data_oriented
 class Pairs:
-    """What every loop over neighbours shares."""
+    """What every loop over neighbours shares: `mine` and `theirs` are the records i and j of a term's line."""
 
-    def __init__(self, particles, box, boundary):
+    def __init__(self, particles, box, boundary, lanes: int):
         self.p, self.dim = particles, particles.dim
         self.lo, self.hi, self.size = box.lo, box.hi, box.size
         self.periodic = boundary.periodic
-        self.walls = tuple(
-            tuple(any(image[a] == side for image in boundary.images) for side in (LOWER, UPPER)) for a in range(3)
-        )
         self.mirrors = bool(boundary.images)
         self.vectors = particles.vectors
+        kinds = {name: kind for name, kind in particles.members.items() if kind is not integer}
+        fields = {name: (particles.state.get_member_field(name), kind) for name, kind in kinds.items()}
+        self.lanes, self.names = Lanes(lanes, fields, self.dim), tuple(kinds)
 
     @ti.func
-    def record(self, entry):
-        """The neighbour an entry of the list stands for."""
-        j = self.p.state[entry & ((1 << IMAGE) - 1) if ti.static(self.mirrors) else entry]
-        if ti.static(self.mirrors):
-            for a in ti.static(range(self.dim)):
-                side = (entry >> (IMAGE + 2 * a)) & 3
-                wall = ti.select(side == LOWER, self.lo[a], self.hi[a])
-                j.x[a] = ti.select(side == 0, j.x[a], 2.0 * wall - j.x[a])
-                sign = ti.select(side == 0, 1.0, -1.0)
-                for name in ti.static(self.vectors):
-                    j[name][a] *= sign
+    def entries(self, near: ti.template(), n, block):
+        """The list entries of one block of lanes."""
+        return [near[n, block * self.lanes.width + k] for k in ti.static(range(self.lanes.width))]
+
+    @ti.func
+    def particle(self, entry):
+        return entry & ((1 << IMAGE) - 1)
+
+    @ti.func
+    def side(self, entry, a: ti.template()):
+        return (entry >> (IMAGE + 2 * a)) & 3
+
+    @traced
+    def mine(self, n, names=None):
+        """Particle n as a record; names: the members that are looked at (default all)."""
+        return self.lanes.one(n, names or self.names)
+
+    @traced
+    def theirs(self, near, n, block, names=None):
+        """The neighbours of n in one block of its row, as one record."""
+        entries = self.entries(near, n, block)
+        if not self.mirrors:
+            return self.lanes.many(entries, names or self.names)
+        j = self.lanes.many([self.particle(entry) for entry in entries], names or self.names)
+        for a in range(self.dim):
+            self.mirror(j, a, self.column([self.side(entry, a) for entry in entries]))
         return j
 
-    @ti.func
+    def column(self, values):
+        return ti.lang.impl.expr_init(ti.lang.matrix.make_matrix(values)) if self.lanes.width > 1 else values[0]
+
+    def mirror(self, j, a: int, side) -> None:
+        """Replace neighbours behind walls of axis a by their mirror images."""
+        direct = ti.cast(side == 0, float)
+        wall = ti.cast(side == LOWER, float) * (2.0 * self.lo[a]) + ti.cast(side == UPPER, float) * (2.0 * self.hi[a])
+        sign = 2.0 * direct - 1.0
+        for name in ("x", *self.vectors):
+            if name in j.__dict__:
+                parts = list(j.__dict__[name].parts)
+                parts[a] = parts[a] * sign + (wall if name == "x" else 0.0)
+                j.__dict__[name] = Vector3(parts)
+
+    @traced
     def between(self, i, j):
         """x_i - x_j to the nearest image, always with three components."""
-        d = ti.Vector.zero(float, 3)
-        for a in ti.static(range(self.dim)):
-            d[a] = i.x[a] - j.x[a]
-            if ti.static(self.periodic[a]):
-                half, full = ti.static(0.5 * self.size[a]), ti.static(self.size[a])
-                d[a] = ti.select(d[a] > half, d[a] - full, d[a])
-                d[a] = ti.select(d[a] < -half, d[a] + full, d[a])
+        return Vector3(self.nearest(i.x[a] - j.x[a], a) if a < self.dim else 0.0 for a in range(3))
+
+    @ti.func
+    def nearest(self, d, a: ti.template()):
+        """A distance along axis a, to the nearest periodic image."""
+        if ti.static(self.periodic[a]):
+            half, full = ti.static(0.5 * self.size[a]), ti.static(self.size[a])
+            d = d - full * ti.cast(d > half, float)
+            d = d + full * ti.cast(d < -half, float)
         return d

@@ -7,7 +7,6 @@ term that is not listed leaves no instruction.
 from .errors import RunError
 from .pairs import TINY
 from .runtime import ti
-from .types import struct
 
 MOST_BUILDS = 100  # of the list within one evaluation; h may grow by 30 % in each
 
@@ -20,12 +19,6 @@ def add(total: ti.template(), part):
             total[key] += part[key]
 
 
-@ti.func
-def bits(x):
-    """A positive number as an integer of the same order: an integer maximum vectorises, a float maximum does not."""
-    return ti.bit_cast(ti.cast(x, ti.f32), ti.i32)
-
-
 @ti.data_oriented
 class RHS:
     """Evaluates the rates of all evolved members and the longest stable time step."""
@@ -34,9 +27,9 @@ class RHS:
         self.p, self.near, self.pairs, self.density = particles, neighbours, pairs, density
         self.choice, self.kernel, self.parts = choice, kernel, parts
         self.cour, self.force = cour, force
-        self.Sums = struct({k: v for part in parts for k, v in part.gathers.items()}, particles.dim)
-        extra = {k: v for part in parts for k, v in part.sums.items()}
-        self.Total = struct({**particles.evolved, **extra}, particles.dim)
+        self.gathers = {k: v for part in parts for k, v in part.gathers.items()}
+        self.totals = {**particles.evolved, **{k: v for part in parts for k, v in part.sums.items()}}
+        self.lanes = pairs.lanes
         self.keys = {hook: self.with_hook(hook) for hook in ("close", "gather", "gathered", "settle")}
         self.pair_terms, self.local_terms = self.with_hook("pair"), self.with_hook("local")
         self.after_terms = self.with_hook("after")
@@ -107,15 +100,15 @@ class RHS:
                t: float, dt: float):  # fmt: skip
         """Neighbour sums some part asked for, then the members made from them."""
         for n in range(self.p.n):
-            i, sums = self.p.state[n], self.Sums(0.0)
-            for k in range(rows[n]):
-                j = self.pairs.record(near[n, k])
+            i, total = self.pairs.mine(n), self.lanes.totals(self.gathers)
+            for block in range(rows[n] // self.lanes.width):
+                j = self.pairs.theirs(near, n, block)
                 w = self.weights(i, j)
                 for part in ti.static(self.keys["gather"]):
-                    add(sums, part.gather(i, j, w))
-            now = ti.Struct(t=t, dt=dt)
+                    total.add(part.gather(i, j, w), part)
+            sums, now = self.lanes.summed(total), ti.Struct(t=t, dt=dt)
             for part in ti.static(self.keys["gathered"]):
-                self.apply(n, part.gathered(i, sums, now))
+                self.apply(n, part.gathered(self.p.state[n], sums, now))
 
     @ti.kernel
     def rates(self, near: ti.types.ndarray(dtype=ti.i32, ndim=2), rows: ti.types.ndarray(dtype=ti.i32, ndim=1),
@@ -124,27 +117,34 @@ class RHS:
         longest = ti.cast(1e30, ti.f32)
         for n in range(self.p.n):
             now = ti.Struct(t=t, dt=dt)
-            i, total, fastest = self.p.state[n], self.Total(0.0), bits(self.p.state[n].vw)
-            for k in range(rows[n]):
-                j = self.pairs.record(near[n, k])
+            i, sums = self.pairs.mine(n), self.lanes.totals(self.totals)
+            fastest = self.lanes.start()
+            for block in range(rows[n] // self.lanes.width):
+                j = self.pairs.theirs(near, n, block)
                 w = self.weights(i, j)
                 for term in ti.static(self.pair_terms):
-                    add(total, term.pair(i, j, w, now))
+                    sums.add(term.pair(i, j, w, now), term)
                 for term in ti.static(self.speed_terms):
-                    fastest = ti.max(fastest, bits(ti.select(w.Gi + w.Gj < 0.0, term.speed(i, j, w, now), 0.0)))
-            for term in ti.static(self.local_terms):
-                add(total, term.local(i, now))
-            for term in ti.static(self.after_terms):
-                add(total, term.after(i, total, now))
+                    fastest = ti.max(fastest, term.speed(i, j, w, now) * ti.cast(w.Gi + w.Gj < 0.0, float))
+            total = self.finish(self.p.state[n], self.lanes.summed(sums), now)
             for key in ti.static(self.p.names):
                 self.p.rate.get_member_field(key)[n] = total[key]
-            ti.atomic_min(longest, ti.cast(self.step_of(i, total, ti.bit_cast(fastest, ti.f32), now), ti.f32))
+            ti.atomic_min(longest, ti.cast(self.step_of(self.p.state[n], total, self.lanes.most(fastest), now), ti.f32))
         return longest
+
+    @ti.func
+    def finish(self, i, total, now):
+        """What each particle adds to its own rates, once all pairs are summed."""
+        for term in ti.static(self.local_terms):
+            add(total, term.local(i, now))
+        for term in ti.static(self.after_terms):
+            add(total, term.after(i, total, now))
+        return total
 
     @ti.func
     def step_of(self, i, total, fastest, now):
         """min of C_cour h / v_sig, C_force sqrt(h / |dv/dt|) and what the terms allow."""
-        step = self.cour * i.h / (ti.cast(fastest, float) + TINY)
+        step = self.cour * i.h / (ti.max(i.vw, fastest) + TINY)
         step = ti.min(step, self.force * ti.sqrt(i.h / (total.v.norm() + TINY)))
         for term in ti.static(self.dt_terms):
             step = ti.min(step, term.max_dt(i, now))
@@ -156,15 +156,16 @@ class RHS:
         """What one term adds to the rates of one particle, summed in absolute value over the evolved members."""
         for _ in range(1):
             now = ti.Struct(t=0.0, dt=0.0)
-            i, total = self.p.state[n], self.Total(0.0)
+            i, sums = self.pairs.mine(n), self.lanes.totals(self.totals)
             if ti.static(term.has("pair")):
-                for k in range(rows[n]):
-                    j = self.pairs.record(near[n, k])
-                    add(total, term.pair(i, j, self.weights(i, j), now))
+                for block in range(rows[n] // self.lanes.width):
+                    j = self.pairs.theirs(near, n, block)
+                    sums.add(term.pair(i, j, self.weights(i, j), now), term)
+            total = self.lanes.summed(sums)
             if ti.static(term.has("local")):
-                add(total, term.local(i, now))
+                add(total, term.local(self.p.state[n], now))
             if ti.static(term.has("after")):
-                add(total, term.after(i, total, now))
+                add(total, term.after(self.p.state[n], total, now))
             out[0] = 0.0
             for key in ti.static(self.p.names):
                 if ti.static(key in self.p.vectors):

@@ -7,7 +7,7 @@ import numpy as np
 
 from . import runtime, state
 from .density import Density
-from .neighbours import Neighbours
+from .neighbours import LANES, Neighbours
 from .pairs import Pairs
 from .particles import Particles
 from .rhs import RHS
@@ -48,7 +48,7 @@ class Simulation:
         p.finish()
         p.ghost()
         self.neighbours = Neighbours(p, scene.box, scene.boundary, kernel)
-        self.pairs = Pairs(p, scene.box, scene.boundary)
+        self.pairs = Pairs(p, scene.box, scene.boundary, LANES if runtime.started()["arch"] == "cpu" else 1)
         self.density = Density(p, self.pairs, kernel, scene.density)
         cour, force = scene.stepper.cour, scene.stepper.force
         self.rhs = RHS(p, self.neighbours, self.pairs, self.density, scene.density, kernel, self.parts, cour, force)
@@ -58,10 +58,13 @@ class Simulation:
         """The first evaluation: density, evolved members from the primitive ones, rates. Done by itself when needed."""
         if self.longest:
             return
+        from .diagnostics.ledger import Ledger
+
         clock = time.perf_counter()
         self.rhs.neighbourhood()
         state.open_members(self)
         self.longest = self.rhs.evaluate(self.time, 0.0)
+        self.ledger = Ledger.opened(self)
         self.seconds_compile += time.perf_counter() - clock
 
     def step(self, dt: float | None = None) -> None:

@@ -1,0 +1,130 @@
+"""The state of a run on disk: all it takes to go on with the same bits, written whole or not at all."""
+
+import contextlib
+import os
+import zipfile
+import zlib
+from pathlib import Path
+
+import numpy as np
+
+from .diagnostics.ledger import Ledger
+from .errors import InputError
+
+FORMAT = 1
+WORDS = {8: "f64", 4: "f32"}
+NUMBERS = ("time", "dt", "longest", "seconds", "seconds_compile")
+COUNTS = ("steps", "floors")
+UNREADABLE = (OSError, ValueError, EOFError, KeyError, zipfile.BadZipFile, zlib.error, NotImplementedError)
+
+
+def save(sim, path) -> None:
+    """Write the state to `path` (.npz); a file that is there stays as it was until the new one is complete.
+
+    Members are kept in memory order with the positions x0 of the last list build, so the list can be made again as it
+    was; rates of the last evaluation belong to the state too. Raises InputError where the disk refuses.
+    """
+    sim.begin()
+    path = Path(path)
+    part = path.with_name(f".{path.name}.{os.getpid()}.part")
+    try:
+        with open(part, "wb") as file:
+            np.savez(file, **content(sim))
+            file.flush()
+            os.fsync(file.fileno())
+        os.replace(part, path)
+    except OSError as error:
+        raise InputError(
+            f"cannot write the state to {path}: {error.strerror or error}; free space or choose another folder (--out DIR)"
+        ) from error
+    finally:
+        discard(part)
+
+
+def discard(part: Path) -> None:
+    """Remove what is left of a file that was not completed."""
+    with contextlib.suppress(OSError):  # the folder itself may be gone, or be no folder
+        part.unlink(missing_ok=True)
+
+
+def content(sim) -> dict[str, np.ndarray]:
+    """The arrays of the file by name."""
+    table, ids = sim.particles.table()
+    ledger = sim.ledger
+    out = {"format": FORMAT, "precision": WORDS[table.itemsize], "columns": columns(sim), "table": table, "ids": ids}
+    out.update({name: getattr(sim, name) for name in NUMBERS + COUNTS})
+    out.update({"builds": sim.neighbours.builds, "E0": ledger.E0, "p0": ledger.p0, "v_rms": ledger.v_rms})
+    out.update({f"rate_{name}": rate for name, rate in sim.particles.rates().items()})
+    return {name: np.asarray(value) for name, value in out.items()}
+
+
+def columns(sim) -> np.ndarray:
+    """Names of the table's columns: a member of several components repeats."""
+    return np.array([name for name, kind, _ in sim.particles.layout for _ in range(kind)])
+
+
+def load(cls, path, scene):
+    """A Simulation of `scene` that goes on where save stopped, to the same bits.
+
+    Raises InputError for a file that is missing, damaged, foreign, or of another scene or precision.
+    """
+    saved = read(path)
+    count, given = len(saved["table"]), len(scene.positions)
+    if count != given:
+        raise InputError(f"{path}: holds {count} particles, the scene has {given}; give the parameters the run had")
+    sim = cls(scene)
+    try:
+        admit(sim, path, saved)
+    except BaseException:
+        sim.close()
+        raise
+    return sim
+
+
+def read(path) -> dict[str, np.ndarray]:
+    """All arrays of the file, checked for what can be checked without a scene."""
+    try:
+        with np.load(path, allow_pickle=False) as file:
+            saved = {name: file[name] for name in file.files}
+        version, table = int(saved["format"]), saved["table"]
+        whole = table.ndim == 2 and np.array_equal(np.sort(saved["ids"]), np.arange(len(table)))
+    except FileNotFoundError as error:
+        raise InputError(f"{path}: there is no such state; leave out --resume to start anew") from error
+    except (*UNREADABLE, AttributeError, TypeError) as error:
+        raise InputError(
+            f"{path}: not a state of a run, or damaged; remove it and start anew without --resume"
+        ) from error
+    if version != FORMAT:
+        raise InputError(f"{path}: state format {version}, this version reads {FORMAT}; start anew without --resume")
+    bad = [name for name, values in saved.items() if values.dtype.kind == "f" and not np.isfinite(values).all()]
+    if bad or not whole:
+        what = f"{bad[0]} is not finite" if bad else "particles are missing or double"
+        raise InputError(f"{path}: {what}; remove it and start anew without --resume")
+    return saved
+
+
+def admit(sim, path, saved: dict) -> None:
+    """Put a checked file into a simulation just built."""
+    p = sim.particles
+    runs = WORDS[p.word().itemsize]
+    if str(saved["precision"]) != runs:
+        raise InputError(
+            f"{path}: saved in {saved['precision']}, this process runs {runs}; add --precision {saved['precision']}"
+        )
+    try:
+        rates = {name: saved[f"rate_{name}"] for name in p.names}
+        numbers = {name: saved[name].item() for name in (*NUMBERS, *COUNTS, "builds", "E0", "v_rms")}
+        ledger = Ledger(numbers["E0"], saved["p0"], numbers["v_rms"])
+    except (KeyError, ValueError) as error:
+        raise InputError(f"{path}: {error} is missing; give the scene and parameters the run had") from error
+    if list(saved["columns"]) != list(columns(sim)) or saved["table"].shape != (p.n, p.width):
+        other = sorted(set(saved["columns"]) ^ set(columns(sim)))
+        raise InputError(
+            f"{path}: saved by a scene with other members ({', '.join(other)}); list the terms the run had"
+        )
+    p.admit(np.ascontiguousarray(saved["table"]), saved["ids"].astype(np.int32))
+    p.admit_rates(rates)
+    sim.neighbours.rebuild()
+    sim.neighbours.builds, sim.ledger = numbers["builds"], ledger
+    for name in NUMBERS + COUNTS:
+        setattr(sim, name, numbers[name])

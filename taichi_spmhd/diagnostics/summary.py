@@ -1,0 +1,41 @@
+"""What summary.json says of a variant, in Python numbers and strings."""
+
+from .clumping import clumping
+from .errors import errors
+from .field import div_B_figures
+from .ledger import drifts
+
+
+def summary(sim) -> dict:
+    """The per-variant entry of summary.json: size, cost, terms, clumping, conservation, div B, errors."""
+    columns = sim.columns()
+    out = {**cost(sim), **contents(sim), **clumping(sim, columns), **drifts(sim, columns)}
+    if "B" in columns:
+        out["div_B"] = div_B_figures(sim, columns)
+    out["floors"] = int(sim.floors)
+    found = errors(sim, columns)
+    return {**out, "errors": found} if found else out
+
+
+def cost(sim) -> dict:
+    """Particles, time and steps reached, and seconds of stepping; the first step compiles and is not among them."""
+    timed = len(sim) * max(sim.steps - 1, 0)
+    return {
+        "particles": len(sim),
+        "t": float(sim.time),
+        "steps": int(sim.steps),
+        "seconds": float(sim.seconds),
+        "seconds_compile": float(sim.seconds_compile),
+        "updates_per_s": float(timed / sim.seconds) if sim.seconds > 0 else 0.0,
+    }
+
+
+def contents(sim) -> dict:
+    """Terms as a scene file writes them, members allocated and evolved, bytes a particle with the neighbour list."""
+    particles = sim.particles
+    return {
+        "terms": [str(term) for term in sim.scene.terms],
+        "members": list(particles.members),
+        "evolved": list(particles.names),
+        "bytes_per_particle": int(particles.bytes_each + sim.neighbours.bytes_each),
+    }

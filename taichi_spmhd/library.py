@@ -1,0 +1,178 @@
+"""Scene files: finding them, loading them, and saying in one line what is wrong with one.
+
+A scene file is a Python module with a docstring and `scenes(**parameters) -> {label: Scene}`. Loading it runs its code.
+"""
+
+import ast
+import importlib.util
+import linecache
+import re
+import sys
+from contextlib import contextmanager
+from functools import lru_cache
+from importlib.machinery import SourceFileLoader
+from pathlib import Path
+from types import ModuleType
+from typing import NamedTuple
+
+from .errors import InputError, RunError
+from .parameters import parameters, settled
+from .picture import suggestion
+from .scene import Scene
+
+PACKAGE = Path(__file__).resolve().parent
+COST = re.compile(r"\babout [^.;,()]*?\b(?:second|minute|hour|min|s|h)s?\b(?: on [^.;,()]*)?", re.IGNORECASE)
+
+
+class Entry(NamedTuple):
+    """A scene that ships: its name, what to see, what it costs, its file."""
+
+    name: str
+    sight: str
+    cost: str
+    path: Path
+
+
+def shipped() -> dict[str, Path]:
+    """The scenes that come with the package, by name: inside it where it is installed, beside it in a checkout."""
+    for folder in (PACKAGE / "scenes", PACKAGE.parent / "scenes"):
+        if folder.is_dir():
+            return {p.stem: p for p in sorted(folder.glob("*.py")) if not p.stem.startswith("_")}
+    return {}
+
+
+def find(scene) -> Path:
+    """The file behind a path or a bare name. Raises InputError that names the nearest and lists what there is."""
+    text, known = str(scene), shipped()
+    if text.endswith(".py") or len(Path(text).parts) != 1:
+        if Path(text).is_file():
+            return Path(text).resolve()
+        raise InputError(f"no scene file {text}{suggestion(Path(text).stem, known)}; those that ship: {', '.join(known)}")
+    if text in known:
+        return known[text]
+    own = f"; for the file of this folder write {text}.py" if Path(f"{text}.py").is_file() else ""
+    raise InputError(f"no scene {text!r}{suggestion(text, known)}{own}; there are {', '.join(known)}")
+
+
+def docstring(path: Path) -> str:
+    """The docstring of a scene file, read without running it; empty where the file is ill."""
+    try:
+        return ast.get_docstring(ast.parse(path.read_bytes())) or ""
+    except (SyntaxError, ValueError, OSError):
+        return ""
+
+
+def sight(path: Path) -> str:
+    """What to see: the first line of the docstring."""
+    return (docstring(path).splitlines() or [""])[0].strip()
+
+
+def listing() -> list[Entry]:
+    """The scenes that ship, without loading any."""
+    entries = []
+    for name, path in shipped().items():
+        cost = COST.search(" ".join(docstring(path).split()))
+        entries.append(Entry(name, sight(path), cost.group(0) if cost else "", path))
+    return entries
+
+
+def line_of(error: BaseException, path: Path) -> int | None:
+    """The last line of the scene file that had to do with an error, or None: then it is not the file's doing."""
+    if isinstance(error, SyntaxError) and error.filename == str(path):
+        return error.lineno
+    line, trace = None, error.__traceback__
+    while trace is not None:
+        if trace.tb_frame.f_code.co_filename == str(path):
+            line = trace.tb_lineno
+        trace = trace.tb_next
+    inside = re.findall(rf'File "{re.escape(str(path))}", line (\d+)', str(error))  # Taichi names the line in its message
+    return int(inside[-1]) if inside else line
+
+
+@contextmanager
+def code_of(path: Path):
+    """Whatever the code of a scene file raises becomes an InputError of one line, with file name and line."""
+    try:
+        yield
+    except (RunError, MemoryError):
+        raise
+    except (Exception, SystemExit) as error:
+        line = line_of(error, path)
+        if line is None:
+            raise
+        lines = [text.strip() for text in str(error).splitlines() if text.strip()]
+        what = error.msg if isinstance(error, SyntaxError) else lines[-1] if lines else ""
+        kind = "" if isinstance(error, InputError) else f"{type(error).__name__}: "
+        raise InputError(f"{path.name}, line {line}: {kind}{what}") from error
+
+
+@contextmanager
+def beside(path: Path):
+    """Modules in the scene file's folder can be imported while it runs; installed ones come first."""
+    sys.path.append(str(path.parent))
+    try:
+        yield
+    finally:
+        sys.path.remove(str(path.parent))
+
+
+@lru_cache(maxsize=64)
+def _module(path: Path, stamp: tuple) -> ModuleType:
+    name = f"_spmhd_scene_{path.stem}"
+    spec = importlib.util.spec_from_file_location(name, path, loader=SourceFileLoader(name, str(path)))
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module
+    linecache.checkcache(str(path))  # Taichi reads the source of terms again
+    with code_of(path), beside(path):
+        exec(compile(path.read_bytes(), str(path), "exec"), module.__dict__)  # not through a .pyc that may be stale
+    if not callable(getattr(module, "scenes", None)):
+        raise InputError(f"{path.name} is no scene file: it needs a function scenes(**parameters) -> {{label: Scene}}")
+    return module
+
+
+def module(scene) -> ModuleType:
+    """The module of a scene file, run once for each version of the file."""
+    path = find(scene)
+    try:
+        stat = path.stat()
+        return _module(path, (stat.st_mtime_ns, stat.st_size))
+    except OSError as error:
+        raise InputError(f"{path} cannot be read: {error.strerror}") from error
+
+
+def parameters_of(scene, **given) -> dict:
+    """{name: value} of all parameters of a scene file, defaults where nothing is given."""
+    made = module(scene)
+    with code_of(Path(made.__file__)):
+        return settled(parameters(made.scenes), given, Path(made.__file__).stem)
+
+
+def load_scene(scene, **given) -> dict[str, Scene]:
+    """{label: Scene} of a scene file, or of a scene that ships by its bare name.
+
+    Raises InputError for an unknown scene or parameter, a value of the wrong kind, and whatever the file does wrong.
+    """
+    values, made = parameters_of(scene, **given), module(scene)
+    path = Path(made.__file__)
+    with code_of(path), beside(path):
+        variants = made.scenes(**values)
+    check(path.name, variants)
+    return dict(variants)
+
+
+def slug(label: str) -> str:
+    """A label in file names: "/" becomes "-", every other run of characters outside [A-Za-z0-9.+-] becomes "_"."""
+    return re.sub(r"[^A-Za-z0-9.+-]+", "_", label.replace("/", "-"))
+
+
+def check(name: str, variants) -> None:
+    """Raises InputError unless variants is {label: Scene} with labels that give different file names."""
+    if not isinstance(variants, dict) or not variants:
+        raise InputError(f"{name}: scenes() returned {type(variants).__name__}; it must return {{label: Scene}}")
+    taken = {}
+    for label, variant in variants.items():
+        if not isinstance(label, str) or not label.strip() or not isinstance(variant, Scene):
+            raise InputError(f"{name}: scenes() returned {label!r}: {type(variant).__name__}; give {{label: Scene}}")
+        other = taken.setdefault(slug(label).casefold(), label)
+        if other != label:
+            raise InputError(f"{name}: the labels {other!r} and {label!r} give one file name {slug(label)}; rename one")
