@@ -19,6 +19,7 @@ class Cells:
         self.lo, self.size = box.lo, box.size
         self.shape = np.ones(3, np.int32)
         self.grid = np.ones((2, 3))  # lower corner and cells per length
+        self.widest = 0.0  # the largest h0
         self.first = ti.ndarray(ti.i32, 2)
         self.cell_of = ti.ndarray(ti.i32, particles.n)
         self.slot = ti.ndarray(ti.i32, 2)
@@ -99,7 +100,8 @@ class Cells:
         """Cells for the noted positions; `reach_per_h` times the largest h0 is the width a cell must have."""
         span = np.array([np.inf] * 3 + [-np.inf] * 3 + [0.0]).astype(self.p.word)
         self.extent(span)
-        reach = reach_per_h * float(span[6]) * (1 + 1e-5)
+        self.widest = float(span[6])
+        reach = reach_per_h * self.widest * (1 + 1e-5)
         for a in range(self.dim):
             lo, size = (self.lo[a], self.size[a]) if self.periodic[a] else (span[a], span[3 + a] - span[a])
             self.grid[:, a] = lo, size

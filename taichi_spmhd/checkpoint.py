@@ -34,9 +34,8 @@ def save(sim, path) -> None:
             os.fsync(file.fileno())
         os.replace(part, path)
     except OSError as error:
-        raise InputError(
-            f"cannot write the state to {path}: {error.strerror or error}; free space or choose another folder (--out DIR)"
-        ) from error
+        why = error.strerror or error
+        raise InputError(f"cannot write {path}: {why}; free space or choose another folder (--out DIR)") from error
     finally:
         discard(part)
 

@@ -9,11 +9,24 @@ On devices that are parallel by themselves LANES is 1 and everything is a plain 
 
 from types import SimpleNamespace
 
+from . import runtime
 from .errors import InputError
 from .runtime import ti
 from .types import real, vec3, vecd
 
 Field, SharedArray = ti.Field, ti.simt.block.SharedArray
+
+
+WIDEST = 8
+
+
+def best() -> int:
+    """Lanes for the device and precision that run: 8 in f64 on the CPU, else 1.
+
+    In f32 the compiler vectorises the plain loop as well as lanes do or better; in f64 often not at all.
+    """
+    running = runtime.started()
+    return WIDEST if running["arch"] == "cpu" and running["precision"] == "f64" else 1
 
 
 def traced(function):
@@ -163,32 +176,46 @@ class Lanes:
     @traced
     def totals(self, kinds: dict):
         """Sums that start at zero, one number per lane."""
-        return Totals({name: [self.start() for _ in range(3 if kind is vec3 else 1)] for name, kind in kinds.items()})
+        return Totals(self.across, {name: [self.start() for _ in range(3 if kind is vec3 else 1)] for name, kind in kinds.items()})
 
     @traced
     def start(self):
         """A new variable, 0 in every lane."""
-        zero = ti.lang.matrix.make_matrix([0.0] * self.width) if self.width > 1 else ti.cast(0.0, float)
-        return ti.lang.impl.expr_init(zero)
+        return ti.lang.impl.expr_init(ti.cast(0.0, float))
 
     @traced
     def summed(self, totals: "Totals"):
         """Totals over the lanes, as a plain struct."""
-        rows = {name: [self.across(part) if self.width > 1 else part for part in parts] for name, parts in totals.parts.items()}
+        rows = {name: list(parts) for name, parts in totals.parts.items()}
         return ti.Struct({name: ti.lang.matrix.make_matrix(row) if len(row) == 3 else row[0] for name, row in rows.items()})
 
-    @traced
-    def most(self, part):
-        """The largest over the lanes."""
-        return self.highest(part) if self.width > 1 else part
+    @ti.func
+    def slowest(self):
+        """The start of a running maximum of positive numbers."""
+        return ti.cast(0.0, float) if ti.static(self.width > 1) else 0
+
+    @ti.func
+    def larger(self, most, value):
+        """The larger of a running maximum and a value; without lanes as an integer, which the compiler vectorises."""
+        if ti.static(self.width > 1):
+            most = ti.max(most, value.max())
+        else:
+            most = ti.max(most, ti.bit_cast(ti.cast(value, ti.f32), ti.i32))
+        return most
+
+    @ti.func
+    def speed(self, most):
+        """The running maximum as a number."""
+        found = ti.cast(0.0, float)
+        if ti.static(self.width > 1):
+            found = most
+        else:
+            found = ti.cast(ti.bit_cast(most, ti.f32), float)
+        return found
 
     @ti.func
     def across(self, part):
         return part.sum()
-
-    @ti.func
-    def highest(self, part):
-        return part.max()
 
 
 class Totals:
@@ -196,8 +223,8 @@ class Totals:
 
     _data_oriented = True
 
-    def __init__(self, parts: dict):
-        self.parts = parts
+    def __init__(self, across, parts: dict):
+        self.across, self.parts = across, parts
 
     @traced
     def add(self, part, source) -> None:
@@ -208,4 +235,4 @@ class Totals:
             values = part[name].parts if isinstance(part[name], Vector3) else [part[name]]
             for total, value in zip(self.parts.get(name, ()), values, strict=False):
                 if not nothing(value):
-                    total._augassign(value, "Add")
+                    total._augassign(self.across(value) if getattr(value, "is_tensor", bool)() else value, "Add")

@@ -47,7 +47,8 @@ def find(scene) -> Path:
     if text.endswith(".py") or len(Path(text).parts) != 1:
         if Path(text).is_file():
             return Path(text).resolve()
-        raise InputError(f"no scene file {text}{suggestion(Path(text).stem, known)}; those that ship: {', '.join(known)}")
+        near = suggestion(Path(text).stem, known)
+        raise InputError(f"no scene file {text}{near}; those that ship: {', '.join(known)}")
     if text in known:
         return known[text]
     own = f"; for the file of this folder write {text}.py" if Path(f"{text}.py").is_file() else ""
@@ -85,7 +86,7 @@ def line_of(error: BaseException, path: Path) -> int | None:
         if trace.tb_frame.f_code.co_filename == str(path):
             line = trace.tb_lineno
         trace = trace.tb_next
-    inside = re.findall(rf'File "{re.escape(str(path))}", line (\d+)', str(error))  # Taichi names the line in its message
+    inside = re.findall(rf'File "{re.escape(str(path))}", line (\d+)', str(error))  # as Taichi's messages say it
     return int(inside[-1]) if inside else line
 
 

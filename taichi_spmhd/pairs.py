@@ -76,6 +76,9 @@ class Pairs:
         """A distance along axis a, to the nearest periodic image."""
         if ti.static(self.periodic[a]):
             half, full = ti.static(0.5 * self.size[a]), ti.static(self.size[a])
-            d = d - full * ti.cast(d > half, float)
-            d = d + full * ti.cast(d < -half, float)
+            if ti.static(self.lanes.width > 1):
+                d = d - full * ti.floor(d * ti.static(1.0 / self.size[a]) + 0.5)
+            else:
+                d = ti.select(d > half, d - full, d)
+                d = ti.select(d < -half, d + full, d)
         return d

@@ -22,6 +22,7 @@ class Particles:
         self.members = {**HOT, **members, **COLD}
         self.evolved, self.names = evolved, tuple(evolved)
         self.vectors = tuple(name for name, kind in self.members.items() if kind is vec3)
+        self.scalars = tuple(name for name, kind in self.members.items() if kind in (real, integer))
         self.State, self.Rate = struct(self.members, dim), struct(evolved, dim)
         self.tree = ti.FieldsBuilder()
         self.state, self.spare = self.place(self.State, n + 1), self.place(self.State, n + 1)
@@ -88,7 +89,7 @@ class Particles:
             record = self.state[n]
             ids[n] = record.id
             for name, kind, first in ti.static(self.layout):
-                if ti.static(kind == 1):
+                if ti.static(name in self.scalars):
                     out[n, first] = ti.cast(record[name], float)
                 else:
                     for c in ti.static(range(kind)):
@@ -100,7 +101,7 @@ class Particles:
         for n in range(self.n):
             self.state[n].id = ids[n]
             for name, kind, first in ti.static(self.layout):
-                if ti.static(kind == 1):
+                if ti.static(name in self.scalars):
                     self.state.get_member_field(name)[n] = ti.cast(table[n, first], self.state.get_member_field(name).dtype)
                 else:
                     for c in ti.static(range(kind)):
@@ -117,7 +118,10 @@ class Particles:
         out, ids = self.table()
         ordered = np.empty_like(out)
         ordered[ids] = out
-        return {name: ordered[:, first] if kind == 1 else ordered[:, first : first + kind] for name, kind, first in self.layout}
+        return {
+            name: ordered[:, first] if name in self.scalars else ordered[:, first : first + kind]
+            for name, kind, first in self.layout
+        }
 
     def rates(self) -> dict[str, np.ndarray]:
         """Rates of the last evaluation, in memory order."""

@@ -53,6 +53,7 @@ class RHS:
         """A complete list, and density and h that belong to the present positions."""
         if self.near.builds == 0 or not self.near.holds():
             self.near.build()
+        self.near.age += 1
         for _ in range(MOST_BUILDS):
             self.density.solve(self.near.near, self.near.count)
             if self.near.holds():
@@ -118,18 +119,18 @@ class RHS:
         for n in range(self.p.n):
             now = ti.Struct(t=t, dt=dt)
             i, sums = self.pairs.mine(n), self.lanes.totals(self.totals)
-            fastest = self.lanes.start()
+            fastest = self.lanes.slowest()
             for block in range(rows[n] // self.lanes.width):
                 j = self.pairs.theirs(near, n, block)
                 w = self.weights(i, j)
                 for term in ti.static(self.pair_terms):
                     sums.add(term.pair(i, j, w, now), term)
                 for term in ti.static(self.speed_terms):
-                    fastest = ti.max(fastest, term.speed(i, j, w, now) * ti.cast(w.Gi + w.Gj < 0.0, float))
+                    fastest = self.lanes.larger(fastest, ti.select(w.Gi + w.Gj < 0.0, term.speed(i, j, w, now), 0.0))
             total = self.finish(self.p.state[n], self.lanes.summed(sums), now)
             for key in ti.static(self.p.names):
                 self.p.rate.get_member_field(key)[n] = total[key]
-            ti.atomic_min(longest, ti.cast(self.step_of(self.p.state[n], total, self.lanes.most(fastest), now), ti.f32))
+            ti.atomic_min(longest, ti.cast(self.step_of(self.p.state[n], total, self.lanes.speed(fastest), now), ti.f32))
         return longest
 
     @ti.func

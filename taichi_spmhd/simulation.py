@@ -7,7 +7,8 @@ import numpy as np
 
 from . import runtime, state
 from .density import Density
-from .neighbours import LANES, Neighbours
+from .lanes import best as lanes
+from .neighbours import Neighbours
 from .pairs import Pairs
 from .particles import Particles
 from .rhs import RHS
@@ -48,7 +49,7 @@ class Simulation:
         p.finish()
         p.ghost()
         self.neighbours = Neighbours(p, scene.box, scene.boundary, kernel)
-        self.pairs = Pairs(p, scene.box, scene.boundary, LANES if runtime.started()["arch"] == "cpu" else 1)
+        self.pairs = Pairs(p, scene.box, scene.boundary, lanes())
         self.density = Density(p, self.pairs, kernel, scene.density)
         cour, force = scene.stepper.cour, scene.stepper.force
         self.rhs = RHS(p, self.neighbours, self.pairs, self.density, scene.density, kernel, self.parts, cour, force)

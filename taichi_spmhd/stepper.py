@@ -65,11 +65,12 @@ class Advance:
         found = 0
         for n in range(self.p.n):
             s, new, old = self.p.state[n], self.p.rate[n], self.p.old[n]
-            half = 0.5 * dt * self.free(s)
+            half, ill = 0.5 * dt * self.free(s), 0
             for key in ti.static(new.keys):
                 value = s[key] + half * (new[key] - old[key])
                 self.p.state.get_member_field(key)[n] = value
-                ti.atomic_or(found, self.ill(value, key))
+                ill |= self.ill(value, key)
+            ti.atomic_or(found, ill)
         return found
 
     @ti.kernel
@@ -78,14 +79,15 @@ class Advance:
         found = 0
         for n in range(self.p.n):
             s, r, start = self.p.state[n], self.p.rate[n], saved[n]
-            free = self.free(s)
+            free, ill = self.free(s), 0
             back = self.pairs.between(start, s)
             for c in ti.static(range(self.p.dim)):
                 self.p.state[n].x[c] = s.x[c] + a * back[c] + b * dt * s.v[c]
             for key in ti.static(r.keys):
                 value = a * start[key] + b * (s[key] + dt * free * r[key])
                 self.p.state.get_member_field(key)[n] = value
-                ti.atomic_or(found, self.ill(value, key))
+                ill |= self.ill(value, key)
+            ti.atomic_or(found, ill)
         return found
 
     @ti.kernel

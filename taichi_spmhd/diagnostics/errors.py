@@ -6,7 +6,7 @@ AXES = "xyz"
 
 
 def errors(sim, columns: dict | None = None) -> dict[str, float]:
-    """Normalised L1 at the particles, mean|f - exact| / mean|exact|, by member; {} where the scene has no exact solution.
+    """Normalised L1 at the particles, mean|f - exact| / mean|exact|, by member; {} for a scene without a solution.
 
     Vectors give one entry a component (B_x, B_y, B_z). A component whose exact value vanishes everywhere is measured
     against the mean magnitude of the vector; what vanishes altogether has no relative error and is left out.

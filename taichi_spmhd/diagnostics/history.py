@@ -12,7 +12,7 @@ COLUMNS = (
 
 
 def history_row(sim) -> dict[str, float]:
-    """The columns in their order. Predicted drifts are absolute, beside E_tot and p; what a scene does not have is 0."""
+    """The columns in their order. Predicted drifts are absolute, as E_tot and p are; what a scene lacks is 0."""
     columns = sim.columns()
     drifts(sim, columns)  # notes the largest v_rms so far
     energy, push = predicted(sim, columns)

@@ -38,7 +38,7 @@ def total(columns: dict, values) -> float:
 
 
 def energies(sim, columns: dict | None = None) -> dict[str, float]:
-    """E_kin, E_int, E_mag = sum m B^2/(2 rho), E_clean = sum m y^2/(2 rho) and their sum E_tot; 0 where there is none."""
+    """E_kin, E_int, E_mag = sum m B^2/(2 rho), E_clean = sum m y^2/(2 rho), their sum E_tot; 0 if there is none."""
     c = columns or sim.columns()
     out = {"E_kin": 0.5 * total(c, c["v"]), "E_int": internal(sim, c)}
     out["E_mag"] = 0.5 * total(c, c["B"] / np.sqrt(c["rho"])[:, None]) if "B" in c else 0.0
@@ -47,7 +47,7 @@ def energies(sim, columns: dict | None = None) -> dict[str, float]:
 
 
 def internal(sim, columns: dict) -> float:
-    """sum m u; for an isothermal gas the free energy c^2 (1 + ln(rho V/M)) per mass, which the forces conserve as well."""
+    """sum m u; for an isothermal gas the free energy c^2 (1 + ln(rho V/M)) per mass, which the forces conserve too."""
     eos = sim.scene.eos
     if not isinstance(eos, Isothermal):
         return total(columns, columns["u"])
@@ -62,7 +62,7 @@ def momentum(sim, columns: dict | None = None) -> np.ndarray:
 
 
 def predicted(sim, columns: dict | None = None) -> tuple[float, np.ndarray]:
-    """The changes of energy and momentum (3,) since the start that the terms account for; zeros where all is conserved."""
+    """The changes of energy and momentum (3,) since the start that the terms account for; 0 where all is conserved."""
     c = columns or sim.columns()
     if "leak_E" not in c:
         return 0.0, np.zeros(3)

@@ -1,4 +1,4 @@
-"""Values between the particles: normalised SPH interpolation, A(x) = sum_j (m/rho) A_j W(r, h_j) / sum_j (m/rho) W(r, h_j).
+"""Between the particles: normalised SPH interpolation, A(x) = sum_j (m/rho) A_j W(r, h_j) / sum_j (m/rho) W(r, h_j).
 
 Points gather from particles sorted into cells, one grid for each octave of reach, so that the work does not depend on
 how different the smoothing lengths are. Every sum runs in a fixed order: the same bits for any number of threads.
@@ -22,7 +22,7 @@ def gather(kernel: ti.template(), points: ti.types.ndarray(ndim=2), grid: ti.typ
            at: ti.types.ndarray(ndim=2), shares: ti.types.ndarray(ndim=2), sums: ti.types.ndarray(ndim=2)):  # fmt: skip
     """sums[p] += shares[j] f(r h_inv) over particles j; at: x, y, z, 1/h. grid: corner, cells per length, period (3).
 
-    shape: number of cells, cells to look at on each side, whether periodic. Images are visited as cells beyond the edge.
+    shape: number of cells, cells to look at on each side, whether periodic. Images are cells beyond the edge.
     """
     for p in range(points.shape[0]):
         c = ti.Vector.zero(ti.i32, 3)
@@ -104,7 +104,7 @@ def octaves(h: np.ndarray):
 
 
 def cells(sim, x: np.ndarray, reach: float):
-    """A grid for particles x (n, 3): corner, cells per length and period; counts, range and periodicity; starts; order."""
+    """A grid for particles x (n, 3): corner, cells per length, period; counts, range, periodicity; starts; order."""
     lo, size, wraps = np.zeros(3), np.ones(3), np.zeros(3, bool)
     for a in range(sim.dim):
         wraps[a] = sim.scene.boundary.periodic[a]

@@ -1,0 +1,84 @@
+"""Writing files whole or not at all; a disk that refuses is the user's to mend, in one line."""
+
+import errno
+import json
+import math
+import os
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+from ..errors import InputError
+
+FULL = {errno.ENOSPC, getattr(errno, "EDQUOT", errno.ENOSPC)}
+CLOSED = {errno.EROFS, errno.EACCES, errno.EPERM}
+
+
+@contextmanager
+def writing(path):
+    """OSError becomes InputError: which file, why, the cure. What was written before stays."""
+    try:
+        yield
+    except OSError as error:
+        raise InputError(f"cannot write {path}: {cure(error)}") from error
+
+
+def cure(error: OSError) -> str:
+    """Why the disk refused and what to do about it."""
+    if error.errno in FULL:
+        return "the disk is full; free some space and go on with --resume, or choose another folder with --out"
+    if error.errno in CLOSED:
+        return "the folder is not writable; choose another with --out"
+    return f"{error.strerror or error}; choose another folder with --out"
+
+
+@contextmanager
+def replacing(path: Path):
+    """A temporary name beside `path`, which takes its place when all went well and vanishes otherwise."""
+    part = path.with_name(f".{path.name}.{os.getpid()}.part")
+    try:
+        with writing(path):
+            yield part
+            os.replace(part, path)
+    finally:
+        with suppress(OSError):
+            part.unlink(missing_ok=True)
+
+
+def write_text(path: Path, text: str) -> None:
+    """Replace a text file in one piece; it is on the disk when this returns."""
+    with replacing(path) as part:
+        put(part, text)
+
+
+def put(path: Path, text: str) -> None:
+    """Write a text file and wait for the disk."""
+    with open(path, "w", encoding="utf-8", newline="\n") as file:
+        file.write(text)
+        file.flush()
+        os.fsync(file.fileno())
+
+
+def as_json(value) -> str:
+    """JSON text with plain numbers; what is not finite becomes null."""
+    return json.dumps(plain(value), indent=1) + "\n"
+
+
+def plain(value):
+    """Python numbers, strings, lists and dicts from numpy ones and tuples."""
+    if isinstance(value, dict):
+        return {str(name): plain(part) for name, part in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [plain(part) for part in value]
+    if hasattr(value, "tolist"):
+        return plain(value.tolist())
+    if isinstance(value, float) and not math.isfinite(value):
+        return None
+    return value if isinstance(value, (str, int, float, bool, type(None))) else str(value)
+
+
+def read_json(path: Path):
+    """What a JSON file holds, or None where there is no such file or it is no JSON."""
+    try:
+        return json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return None

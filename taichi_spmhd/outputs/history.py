@@ -1,0 +1,28 @@
+"""history_<variant>.csv: one row a frame, on the disk as soon as it is known."""
+
+import os
+from pathlib import Path
+
+from .files import write_text, writing
+
+
+def begin(path: Path) -> None:
+    """An empty history in place of an earlier one."""
+    write_text(path, "")
+
+
+def add(path: Path, row: dict) -> None:
+    """Append a row, under a header where the file is empty; numbers are written with all their digits."""
+    with writing(path), open(path, "a", encoding="utf-8", newline="") as file:
+        if file.tell() == 0:
+            file.write(",".join(row) + "\n")
+        file.write(",".join(repr(value) for value in row.values()) + "\n")
+        file.flush()
+        os.fsync(file.fileno())
+
+
+def cut(path: Path, time: float) -> None:
+    """Drop rows later than `time`, and one that a kill left unfinished."""
+    lines = path.read_text(encoding="utf-8").splitlines(keepends=True) if path.exists() else []
+    rows = [line for line in lines[1:] if line.endswith("\n") and float(line.split(",", 1)[0]) <= time]
+    write_text(path, "".join([*lines[:1], *rows]) if rows else "")
