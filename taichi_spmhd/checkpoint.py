@@ -10,6 +10,7 @@ import numpy as np
 
 from .diagnostics.ledger import Ledger
 from .errors import InputError
+from .neighbours import STORY
 
 FORMAT = 1
 WORDS = {8: "f64", 4: "f32"}
@@ -52,7 +53,8 @@ def content(sim) -> dict[str, np.ndarray]:
     ledger = sim.ledger
     out = {"format": FORMAT, "precision": WORDS[table.itemsize], "columns": columns(sim), "table": table, "ids": ids}
     out.update({name: getattr(sim, name) for name in NUMBERS + COUNTS})
-    out.update({"builds": sim.neighbours.builds, "E0": ledger.E0, "p0": ledger.p0, "v_rms": ledger.v_rms})
+    out.update({"E0": ledger.E0, "p0": ledger.p0, "v_rms": ledger.v_rms})
+    out.update(sim.neighbours.story())
     out.update({f"rate_{name}": rate for name, rate in sim.particles.rates().items()})
     return {name: np.asarray(value) for name, value in out.items()}
 
@@ -112,7 +114,7 @@ def admit(sim, path, saved: dict) -> None:
         )
     try:
         rates = {name: saved[f"rate_{name}"] for name in p.names}
-        numbers = {name: saved[name].item() for name in (*NUMBERS, *COUNTS, "builds", "E0", "v_rms")}
+        numbers = {name: saved[name].item() for name in (*NUMBERS, *COUNTS, *STORY, "E0", "v_rms")}
         ledger = Ledger(numbers["E0"], saved["p0"], numbers["v_rms"])
     except (KeyError, ValueError) as error:
         raise InputError(f"{path}: {error} is missing; give the scene and parameters the run had") from error
@@ -123,7 +125,8 @@ def admit(sim, path, saved: dict) -> None:
         )
     p.admit(np.ascontiguousarray(saved["table"]), saved["ids"].astype(np.int32))
     p.admit_rates(rates)
+    sim.neighbours.retell(numbers)
     sim.neighbours.rebuild()
-    sim.neighbours.builds, sim.ledger = numbers["builds"], ledger
+    sim.ledger = ledger
     for name in NUMBERS + COUNTS:
         setattr(sim, name, numbers[name])

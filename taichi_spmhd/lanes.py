@@ -126,6 +126,11 @@ class Record:
     def __init__(self, members: dict):
         self.__dict__.update(members)
 
+    def __getattr__(self, name):
+        if name.startswith("_"):
+            raise AttributeError(name)
+        raise InputError(f"a pair loop uses member {name}, which no listed part declares: add it to the term's `reads`")
+
 
 @ti.data_oriented
 class Lanes:

@@ -8,17 +8,17 @@ import importlib.util
 import linecache
 import re
 import sys
-from contextlib import contextmanager
 from functools import lru_cache
 from importlib.machinery import SourceFileLoader
 from pathlib import Path
 from types import ModuleType
 from typing import NamedTuple
 
-from .errors import InputError, RunError
+from .errors import InputError
 from .parameters import parameters, settled
 from .picture import suggestion
 from .scene import Scene
+from .scene_code import beside, code_of
 
 PACKAGE = Path(__file__).resolve().parent
 COST = re.compile(r"\babout [^.;,()]*?\b(?:second|minute|hour|min|s|h)s?\b(?: on [^.;,()]*)?", re.IGNORECASE)
@@ -75,46 +75,6 @@ def listing() -> list[Entry]:
         cost = COST.search(" ".join(docstring(path).split()))
         entries.append(Entry(name, sight(path), cost.group(0) if cost else "", path))
     return entries
-
-
-def line_of(error: BaseException, path: Path) -> int | None:
-    """The last line of the scene file that had to do with an error, or None: then it is not the file's doing."""
-    if isinstance(error, SyntaxError) and error.filename == str(path):
-        return error.lineno
-    line, trace = None, error.__traceback__
-    while trace is not None:
-        if trace.tb_frame.f_code.co_filename == str(path):
-            line = trace.tb_lineno
-        trace = trace.tb_next
-    inside = re.findall(rf'File "{re.escape(str(path))}", line (\d+)', str(error))  # as Taichi's messages say it
-    return int(inside[-1]) if inside else line
-
-
-@contextmanager
-def code_of(path: Path):
-    """Whatever the code of a scene file raises becomes an InputError of one line, with file name and line."""
-    try:
-        yield
-    except (RunError, MemoryError):
-        raise
-    except (Exception, SystemExit) as error:
-        line = line_of(error, path)
-        if line is None:
-            raise
-        lines = [text.strip() for text in str(error).splitlines() if text.strip()]
-        what = error.msg if isinstance(error, SyntaxError) else lines[-1] if lines else ""
-        kind = "" if isinstance(error, InputError) else f"{type(error).__name__}: "
-        raise InputError(f"{path.name}, line {line}: {kind}{what}") from error
-
-
-@contextmanager
-def beside(path: Path):
-    """Modules in the scene file's folder can be imported while it runs; installed ones come first."""
-    sys.path.append(str(path.parent))
-    try:
-        yield
-    finally:
-        sys.path.remove(str(path.parent))
 
 
 @lru_cache(maxsize=64)

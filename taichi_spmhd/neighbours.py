@@ -20,6 +20,7 @@ from .runtime import ti
 PADS = (1.04, 1.2)  # list radius over support, at least and at most
 BLOCK = 32  # candidates tested together
 LANES = 8  # rows are filled up to a multiple of this
+STORY = ("builds", "age", "pad", "moved")
 IMAGE = 26  # bits of an entry that hold the particle; above them, per axis, which wall it is mirrored at
 
 
@@ -200,12 +201,23 @@ class Neighbours:
 
     def fits(self) -> None:
         """Raises RunError when a pair would meet twice, once through the period: only the nearest image is summed."""
-        if self.support * self.cells.widest > self.half * (1 + 1e-6):
-            reach = self.support * self.cells.widest
+        reach = self.support * self.cells.widest
+        if reach > self.half * (1 + 1e-6):
             raise RunError(
                 f"density: a kernel support of radius {reach:.3g} has outgrown half the box ({self.half:.3g}); "
                 "raise nx, widen the box or take a smaller kernel"
             )
+
+    def story(self) -> dict:
+        """What, beside x0 and h0, decides when the next list is built and how wide: it belongs to the state of a run."""
+        return {name: getattr(self, name) for name in STORY}
+
+    def retell(self, story: dict) -> bool:
+        """Go back to a story; returns whether the list is not the one it tells of, so that `rebuild` must follow."""
+        other = self.builds != story["builds"]
+        for name in STORY:
+            setattr(self, name, story[name])
+        return other
 
     def rebuild(self) -> None:
         """The list as it was when positions x0 were noted: for a state read from disk, already in memory order."""
@@ -214,15 +226,20 @@ class Neighbours:
 
     @ti.kernel
     def slack(self, pad: float) -> ti.types.vector(2, ti.f32):
-        """min_i ( pad R h0_i - R h_i - d_i ) and max_j d_j / R h_j: how much room is left, and how far particles moved."""
+        """min_i ( pad R h0_i - R h_i - d_i ) and max_j d_j / R h_j: how much room is left, and how far particles moved.
+
+        No room either when a support has outgrown half the box: the build that follows says so.
+        """
         room, moved, share = ti.cast(1e30, float), ti.cast(0.0, float), ti.cast(0.0, float)
+        fits = ti.cast(1e30, float)
         for n in range(self.p.n):
             s = self.p.state[n]
             d = (s.x - s.x0).norm()
             ti.atomic_min(room, self.support * (pad * s.h0 - s.h) - d)
             ti.atomic_max(moved, d)
             ti.atomic_max(share, d * s.hinv)
-        return ti.Vector([ti.cast(room - moved, ti.f32), ti.cast(share / self.support, ti.f32)])
+            ti.atomic_min(fits, self.half * (1.0 + 1e-6) - self.support * s.h)
+        return ti.Vector([ti.cast(ti.min(room - moved, fits), ti.f32), ti.cast(share / self.support, ti.f32)])
 
     def holds(self) -> bool:
         """Whether the list is complete for the present positions and smoothing lengths."""

@@ -72,6 +72,14 @@ class Pairs:
         return Vector3(self.nearest(i.x[a] - j.x[a], a) if a < self.dim else 0.0 for a in range(3))
 
     @ti.func
+    def apart(self, x, y):
+        """x - y to the nearest image, of two positions."""
+        d = x - y
+        for a in ti.static(range(self.dim)):
+            d[a] = self.nearest(d[a], a)
+        return d
+
+    @ti.func
     def nearest(self, d, a: ti.template()):
         """A distance along axis a, to the nearest periodic image."""
         if ti.static(self.periodic[a]):

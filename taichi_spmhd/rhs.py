@@ -19,6 +19,15 @@ def add(total: ti.template(), part):
             total[key] += part[key]
 
 
+BASE = ("x", "v", "m", "h", "rho", "hinv", "g")  # what a pair's line may use of every particle
+
+
+def looked_at(parts: tuple, names: tuple) -> tuple:
+    """The members the pair loops load: what the parts declare in reads, makes and keeps."""
+    wanted = {name for part in parts for name in (*part.reads, *part.makes, *part.keeps)}
+    return tuple(name for name in names if name in wanted or name in BASE)
+
+
 @ti.data_oriented
 class RHS:
     """Evaluates the rates of all evolved members and the longest stable time step."""
@@ -29,7 +38,7 @@ class RHS:
         self.cour, self.force = cour, force
         self.gathers = {k: v for part in parts for k, v in part.gathers.items()}
         self.totals = {**particles.evolved, **{k: v for part in parts for k, v in part.sums.items()}}
-        self.lanes = pairs.lanes
+        self.lanes, self.looked = pairs.lanes, looked_at(parts, pairs.names)
         self.keys = {hook: self.with_hook(hook) for hook in ("close", "gather", "gathered", "settle")}
         self.pair_terms, self.local_terms = self.with_hook("pair"), self.with_hook("local")
         self.after_terms = self.with_hook("after")
@@ -101,9 +110,9 @@ class RHS:
                t: float, dt: float):  # fmt: skip
         """Neighbour sums some part asked for, then the members made from them."""
         for n in range(self.p.n):
-            i, total = self.pairs.mine(n), self.lanes.totals(self.gathers)
+            i, total = self.pairs.mine(n, self.looked), self.lanes.totals(self.gathers)
             for block in range(rows[n] // self.lanes.width):
-                j = self.pairs.theirs(near, n, block)
+                j = self.pairs.theirs(near, n, block, self.looked)
                 w = self.weights(i, j)
                 for part in ti.static(self.keys["gather"]):
                     total.add(part.gather(i, j, w), part)
@@ -118,10 +127,10 @@ class RHS:
         longest = ti.cast(1e30, ti.f32)
         for n in range(self.p.n):
             now = ti.Struct(t=t, dt=dt)
-            i, sums = self.pairs.mine(n), self.lanes.totals(self.totals)
+            i, sums = self.pairs.mine(n, self.looked), self.lanes.totals(self.totals)
             fastest = self.lanes.slowest()
             for block in range(rows[n] // self.lanes.width):
-                j = self.pairs.theirs(near, n, block)
+                j = self.pairs.theirs(near, n, block, self.looked)
                 w = self.weights(i, j)
                 for term in ti.static(self.pair_terms):
                     sums.add(term.pair(i, j, w, now), term)
@@ -157,10 +166,10 @@ class RHS:
         """What one term adds to the rates of one particle, summed in absolute value over the evolved members."""
         for _ in range(1):
             now = ti.Struct(t=0.0, dt=0.0)
-            i, sums = self.pairs.mine(n), self.lanes.totals(self.totals)
+            i, sums = self.pairs.mine(n, self.looked), self.lanes.totals(self.totals)
             if ti.static(term.has("pair")):
                 for block in range(rows[n] // self.lanes.width):
-                    j = self.pairs.theirs(near, n, block)
+                    j = self.pairs.theirs(near, n, block, self.looked)
                     sums.add(term.pair(i, j, self.weights(i, j), now), term)
             total = self.lanes.summed(sums)
             if ti.static(term.has("local")):

@@ -131,7 +131,7 @@ def rates(sim) -> dict[str, np.ndarray]:
     """d/dt of every evolved member in the caller's order; the state is put back as it was, to the bit."""
     p = sim.particles
     table, ids = p.table()
-    before, builds = p.rates(), sim.neighbours.builds
+    before, story = p.rates(), sim.neighbours.story()
     sim.rhs.evaluate(sim.time, 0.0)
     _, now_ids = p.table()
     out = {}
@@ -140,7 +140,7 @@ def rates(sim) -> dict[str, np.ndarray]:
         out[name][now_ids] = values
     p.admit(table, ids)
     p.admit_rates(before)
-    if sim.neighbours.builds != builds:
+    if sim.neighbours.retell(story):
         sim.neighbours.rebuild()
     return out
 

@@ -80,7 +80,7 @@ class Advance:
         for n in range(self.p.n):
             s, r, start = self.p.state[n], self.p.rate[n], saved[n]
             free, ill = self.free(s), 0
-            back = self.pairs.between(start, s)
+            back = self.pairs.apart(start.x, s.x)
             for c in ti.static(range(self.p.dim)):
                 self.p.state[n].x[c] = s.x[c] + a * back[c] + b * dt * s.v[c]
             for key in ti.static(r.keys):

@@ -12,7 +12,7 @@ from taichi_spmhd.errors import RunError
 from taichi_spmhd.kernels import CubicSpline
 from taichi_spmhd.lattice import cubic as cubic_lattice
 from taichi_spmhd.lattice import jitter, line, square
-from taichi_spmhd.neighbours import IMAGE, LANES, PAD
+from taichi_spmhd.neighbours import IMAGE, LANES
 from taichi_spmhd.runtime import ti
 from taichi_spmhd.scene import Scene
 from taichi_spmhd.terms import Induction, Pressure, Stress
@@ -78,7 +78,7 @@ def assert_complete(sim):
         for n, row in enumerate(lists):
             listed[n, [j for j, its in row if its == code]] = True
         needed = distances(sim, c["x"], image(c["x"])) < SUPPORT * np.maximum(h[:, None], h)
-        r0, reach = distances(sim, c["x0"], image(c["x0"])), PAD * SUPPORT * np.maximum(h0[:, None], h0)
+        r0, reach = distances(sim, c["x0"], image(c["x0"])), sim.neighbours.pad * SUPPORT * np.maximum(h0[:, None], h0)
         assert not (needed & ~listed).any(), "a neighbour is lost"
         assert not (listed & (r0 > reach * 1.001)).any(), "no neighbour at all is listed"
 

@@ -31,8 +31,7 @@ def main(args) -> int:
         try:
             return carry_out(args, path, folder, stop)
         except Interrupted:
-            on = any(folder.root.glob("state_*.npz"))
-            where = f"its state is in {folder.root}; go on with --resume" if on else "nothing was written yet"
+            where = f"its state is in {folder.root}; go on with --resume" if folder.record else "nothing was written"
             return complain(f"interrupted; {where}", INTERRUPTED)
 
 

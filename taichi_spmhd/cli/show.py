@@ -17,14 +17,15 @@ def main(args) -> int:
     """Each variant is built and evaluated once, not run."""
     from ..library import docstring, find, load_scene, parameters_of
     from ..outputs.plan import chosen
-    from ..outputs.words import say, table
+    from ..outputs.words import say
 
     path, given = find(args.scene), assignments(args.set)
     variants = chosen(load_scene(path, **given), args.variant)
     start(args)
     say(docstring(path))
     values = parameters_of(path, **given).items()
-    table(("", ""), [(f"--set {name}={value}", "") for name, value in values], title="\nParameters")
+    say()
+    say("  ".join(["parameters:", *(f"{name}={value}" for name, value in values)]) if values else "no parameters")
     for label, scene in variants.items():
         describe(label, scene, path)
     return 0
@@ -32,8 +33,8 @@ def main(args) -> int:
 
 def describe(label: str, scene, path) -> None:
     """Parts, members, cost and warnings of one variant."""
-    from ..library import code_of
     from ..outputs.words import say, table
+    from ..scene_code import code_of
     from ..simulation import Simulation
     from .advice import warnings
 
@@ -49,7 +50,8 @@ def describe(label: str, scene, path) -> None:
 
 def equations(scene) -> list[tuple[str, str]]:
     """(a part as a scene file writes it, its equation): terms, then choices."""
-    choices = [scene.eos, scene.energy, scene.density, scene.kernel, scene.stepper]
+    energy = [scene.energy] if scene.energy in scene.parts else []  # an isothermal gas has none
+    choices = [scene.eos, *energy, scene.density, scene.kernel, scene.stepper]
     rows = [("term " + str(term), term.equation()) for term in scene.terms]
     rows += [(named(choice), first_line(choice)) for choice in choices]
     return [*rows, ("Boundary", edges(scene))]

@@ -22,7 +22,8 @@ def nearest(neighbours: ti.template(), near: ti.types.ndarray(dtype=ti.i32, ndim
             if entry != n and entry >= 0 and entry < neighbours.p.n:
                 r2 = ti.cast(0.0, float)
                 for a in ti.static(range(neighbours.dim)):
-                    r2 += neighbours.separation(neighbours.p.state[n].x[a], neighbours.p.state[entry].x[a], a, True) ** 2
+                    here, there = neighbours.p.state[n].x[a], neighbours.p.state[entry].x[a]
+                    r2 += neighbours.separation(here, there, a, True) ** 2
                 least = ti.min(least, r2)
         out[neighbours.p.state[n].id] = least
 

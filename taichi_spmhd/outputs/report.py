@@ -1,8 +1,8 @@
 """The end of a run: summary.json, and a short table of what came out."""
 
 from .. import __version__
-from ..library import code_of
 from ..runtime import ti
+from ..scene_code import code_of
 from .files import as_json, write_text
 from .run import Run
 from .words import duration, rate, say, size, table

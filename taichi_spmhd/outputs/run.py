@@ -2,8 +2,8 @@
 
 import time
 
-from ..errors import InputError, RunError
-from ..library import code_of
+from ..errors import RunError
+from ..scene_code import code_of
 from ..simulation import Simulation
 from . import history
 from .film import Film
@@ -148,6 +148,4 @@ class Run:
 def restore(plan: Plan, folder: Folder) -> dict | None:
     """Compare a run to be taken up with what is asked; its record if it has ended, None if it can go on."""
     record = folder.take_up(plan.record())
-    if not record.get("finished") and not any(folder.state(label).exists() for label in plan.variants):
-        raise InputError(f"--resume: {folder.root} holds no state to go on from; start anew without --resume")
     return record if record.get("finished") else None

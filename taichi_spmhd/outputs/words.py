@@ -62,4 +62,6 @@ def size(count: float) -> str:
 
 def rate(per_second: float) -> str:
     """Particle updates per second."""
-    return f"{per_second / 1e6:.2f} million updates/s" if per_second >= 1e5 else f"{per_second:.2g} updates/s"
+    if per_second >= 999_500:
+        return f"{per_second / 1e6:.2f} million updates/s"
+    return f"{per_second / 1000:.0f} thousand updates/s" if per_second >= 2000 else f"{per_second:.0f} updates/s"

@@ -1,0 +1,44 @@
+"""Circularly polarised Alfven wave: particles clump along B unless the div B force is removed.
+
+Lecture pp. 15-20; Toth 2000. P = 0.1 and B = 1, so P - B^2/2 < 0: neighbours along the field attract each other, the
+tensile instability. xi = 0 shows it from t about 0.4: rows of particles draw together into sheets perpendicular to B.
+xi = 1/2 and xi = 1 cure it. Smaller beta clumps harder. The wave has no shocks: a weak viscosity is enough.
+It costs about 10 s on two cores.
+
+    spmhd run scenes/alfven_tensile.py
+"""
+
+import numpy as np
+
+from taichi_spmhd import Adiabatic, Picture, Scene, exact, hexagonal
+from taichi_spmhd.terms import DivBSource, Induction, Resistivity, Stress, Viscosity
+
+ANGLE = np.radians(30)  # wave vector and mean field against the x axis
+BOX = (1 / np.cos(ANGLE), 1 / np.sin(ANGLE))  # one wavelength fits each side
+B_PARALLEL = 1.0  # v_A = 1: the wave comes back to its start after t = 1
+
+
+def scenes(nx: int = 32, beta: float = 0.2, amplitude: float = 0.1, t_end: float = 1.0):
+    """The same wave, without and with the remedy. beta = 2P/B^2 of the mean field."""
+
+    def wave(x, t):
+        return exact.alfven_wave(
+            x, t, exact.direction(ANGLE), amplitude, pressure=0.5 * beta * B_PARALLEL**2, B_parallel=B_PARALLEL
+        )
+
+    bare = Scene(
+        box=BOX,
+        positions=hexagonal(BOX, nx),
+        start=lambda x: wave(x, 0.0),
+        eos=Adiabatic(5 / 3),
+        terms=(Stress(), Induction(), Viscosity(alpha=0.2, beta=0.0), Resistivity()),
+        t_end=t_end,
+        exact=wave,
+        measure="B_z",
+        picture=Picture("B", axis=2, limits=(-1.2 * amplitude, 1.2 * amplitude), draw="particles", gaps=True),
+    )
+    return {
+        "xi = 0": bare,
+        "xi = 1/2": bare.plus(DivBSource(xi=0.5)),
+        "xi = 1": bare.plus(DivBSource(xi=1.0)),
+    }

@@ -1,0 +1,38 @@
+"""Orszag-Tang vortex: smooth flow turns into crossing shocks and current sheets; div B errors pile up without cleaning.
+
+Lecture pp. 24-25; Orszag & Tang 1979; compared with a grid run (Athena++, 512^2) at t = 0.5. SPMHD survives without
+cleaning thanks to xi, but h |div B| / |B| grows; hyperbolic cleaning keeps it small. It costs about 1 min on two cores.
+
+    spmhd run orszag_tang --set nx=64
+"""
+
+import numpy as np
+
+from taichi_spmhd import Adiabatic, Picture, QuinticSpline, Scene, hexagonal
+from taichi_spmhd.terms import Cleaning, Conductivity, DivBSource, Induction, Resistivity, Stress, Viscosity
+
+BOX = (1.0, 1.0)
+RHO, P, B0 = 25 / (36 * np.pi), 5 / (12 * np.pi), 1 / np.sqrt(4 * np.pi)
+
+
+def start(x):
+    """v = (-sin 2 pi y, sin 2 pi x, 0), B = B0 (-sin 2 pi y, sin 4 pi x, 0); x has shape (N, 2)."""
+    k, zero = 2 * np.pi, np.zeros(len(x))
+    v = np.stack([-np.sin(k * x[:, 1]), np.sin(k * x[:, 0]), zero], axis=1)
+    B = B0 * np.stack([-np.sin(k * x[:, 1]), np.sin(2 * k * x[:, 0]), zero], axis=1)
+    return {"rho": RHO, "P": P, "v": v, "B": B}
+
+
+def scenes(nx: int = 128, t_end: float = 0.5):
+    """Without and with hyperbolic divergence cleaning."""
+    bare = Scene(
+        box=BOX,
+        positions=hexagonal(BOX, nx),
+        start=start,
+        eos=Adiabatic(5 / 3),
+        kernel=QuinticSpline(),
+        terms=(Stress(), Induction(), DivBSource(xi=0.5), Viscosity(), Conductivity(), Resistivity()),
+        t_end=t_end,
+        picture=Picture("rho", limits=(0.08, 0.5), draw="sph"),
+    )
+    return {"without cleaning": bare, "with cleaning": bare.plus(Cleaning())}
