@@ -34,7 +34,7 @@ def sizes(given, quick: bool) -> dict[str, int]:
     for word in given or ():
         axis, _, nx = word.partition("=")
         if axis not in found or not nx.isdigit() or int(nx) < 8:
-            raise InputError(f"--sizes {word}: write 2d=NX or 3d=NX with at least 8 particles along an axis, as in 3d=32")
+            raise InputError(f"--sizes {word}: write 2d=NX or 3d=NX, particles along an axis, at least 8, as in 3d=32")
         found[axis] = int(nx)
     return found
 

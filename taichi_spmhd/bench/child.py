@@ -7,7 +7,7 @@ import sys
 from .. import runtime
 from ..outputs.files import plain
 from . import cases, scale
-from .measure import row
+from .measure import RUNS, row
 
 MARK = "row: "  # what else is printed (by Taichi, by a library) is not a row
 
@@ -18,7 +18,10 @@ def run(argv=None) -> int:
     runtime.init(asked.arch, asked.precision, asked.threads)
     sizes = cases.sizes(asked.sizes, asked.quick)
     for case in asked.cases:
-        tell(scale.row(case, asked.quick) if asked.scale else row(case, sizes[dimension(case)], 3 if asked.quick else 5))
+        if asked.scale:
+            tell(scale.row(case, asked.quick))
+        else:
+            tell(row(case, sizes[dimension(case)], 3 if asked.quick else RUNS))
     return 0
 
 

@@ -21,7 +21,7 @@ def calls(sim) -> list[tuple[str, object, str]]:
 
 
 class Clocks:
-    """with Clocks(sim) as clocks: sim.step() ... clocks.seconds: {phase: seconds}, builds included where they happen."""
+    """with Clocks(sim) as clocks: sim.step() ...; clocks.seconds: {phase: seconds}, list builds when they happen."""
 
     def __init__(self, sim):
         self.calls = calls(sim)

@@ -64,7 +64,7 @@ def size(sim) -> dict:
 
 
 def traffic(sim, step: dict) -> float:
-    """GB/s of list entries read by density and rates, each counted as one pass (Newton's later passes find them cached)."""
+    """GB/s of list entries in density and rates, one pass each: Newton's later passes find a row in the cache."""
     entries = float(sim.neighbours.count.to_numpy().sum())
     seconds = (step["phases_ms"]["density"] + step["phases_ms"]["rates"]) / 1e3
     return PASSES * 4 * entries / seconds / 1e9

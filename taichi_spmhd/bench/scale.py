@@ -10,7 +10,7 @@ from .clocks import PHASES
 from .measure import WARM_UP, run, size
 
 STEPS = {False: (40, 6), True: (20, 3)}  # quick or not: steps with few and with many particles
-READS, WRITES = 8, 5  # whole records a step streams beside the neighbours': predict, slack, density, close, rates, correct
+READS, WRITES = 8, 5  # whole records a step streams: predict, twice slack, density, close, rates, correct
 
 
 def row(case: str, quick: bool) -> dict:
@@ -42,7 +42,7 @@ def at(case: str, nx: int, steps: int) -> dict:
 
 
 def streamed(sim, builds: float) -> float:
-    """Bytes a particle and step that pass the memory once nothing is cached: records, rates and list entries (estimate)."""
+    """Bytes a particle and step that pass the memory when nothing is cached: records, rates, list (an estimate)."""
     listed = 4 * float(sim.neighbours.count.to_numpy().mean())
     word = sim.particles.word().itemsize
     record, rate = word * sim.particles.width + 4, sum(a[0].nbytes for a in sim.particles.rates().values())

@@ -18,7 +18,7 @@ COLUMNS = 6  # x, y, z, 1/h, m, P
 
 @ti.data_oriented
 class Yardstick:
-    """Columns of their own for the particles of a periodic simulation, in its memory order; the list is the simulation's."""
+    """Own columns for the particles of a periodic simulation in its memory order; the list is the simulation's."""
 
     def __init__(self, sim):
         self.n, self.dim, self.lanes, self.near = len(sim), sim.dim, best(), sim.neighbours
@@ -49,6 +49,11 @@ class Yardstick:
         return d - ti.floor(d + 0.5)
 
     @ti.func
+    def along(self, columns: ti.template(), a: ti.template(), near: ti.template(), n, first):
+        """x_i - x_j along axis a."""
+        return self.nearest(columns[a, n] - self.lane(columns, a, near, n, first))
+
+    @ti.func
     def slope(self, q):
         """The cubic spline's f'(q)."""
         a, b = ti.max(2.0 - q, 0.0), ti.max(1.0 - q, 0.0)
@@ -61,17 +66,16 @@ class Yardstick:
         for n in range(self.n):
             total = ti.Vector.zero(float, 3)
             for block in range(rows[n] // self.lanes):
-                r2, d = 0.0 * self.lane(columns, 0, near, n, block * self.lanes), []
-                for a in ti.static(range(self.dim)):
-                    d.append(self.nearest(columns[a, n] - self.lane(columns, a, near, n, block * self.lanes)))
-                    r2 += d[a] * d[a]
+                first = block * self.lanes
+                r2 = self.along(columns, 0, near, n, first) ** 2
+                for a in ti.static(range(1, self.dim)):
+                    r2 += self.along(columns, a, near, n, first) ** 2
                 rinv = 1.0 / ti.sqrt(r2 + 1e-30)
-                r, hinv = r2 * rinv, self.lane(columns, 3, near, n, block * self.lanes)
-                bend = (self.slope(r * columns[3, n]) + self.slope(r * hinv)) * rinv
-                pull = columns[5, n] + self.lane(columns, 5, near, n, block * self.lanes)
-                pull *= bend * self.lane(columns, 4, near, n, block * self.lanes)
+                r, hinv = r2 * rinv, self.lane(columns, 3, near, n, first)
+                pull = (self.slope(r * columns[3, n]) + self.slope(r * hinv)) * rinv
+                pull *= self.lane(columns, 4, near, n, first) * (columns[5, n] + self.lane(columns, 5, near, n, first))
                 for a in ti.static(range(self.dim)):
-                    total[a] += (pull * d[a]).sum()
+                    total[a] += (pull * self.along(columns, a, near, n, first)).sum()
             for a in ti.static(range(3)):
                 out[a, n] = total[a]
 

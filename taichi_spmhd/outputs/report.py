@@ -42,15 +42,16 @@ HEADERS = ("", "steps", "seconds", "speed", "mean gap", "close pairs", "energy d
 
 def tell(made: dict, run: Run) -> None:
     """A line per variant, and where the files are."""
-    table(HEADERS, [row(label, entry) for label, entry in made["variants"].items()])
+    table(HEADERS, [row(label, made["variants"][label], scene.measure) for label, scene in run.plan.variants.items()])
     film, count = run.folder.film(run.folder.record), len(list(run.folder.frames.glob("[0-9]*.png")))
     parts = [f"{count} frames"] + ([f"{film.name} ({size(film.stat().st_size)})"] if film.exists() else [])
     say(f"{run.folder.root}: {', '.join(parts)}, summary.json, histories, states")
 
 
-def row(label: str, entry: dict) -> tuple:
-    """The cells of one variant."""
-    errors = ", ".join(f"{name} {value:.2g}" for name, value in entry.get("errors", {}).items())
+def row(label: str, entry: dict, measure: str | None) -> tuple:
+    """The cells of one variant; of its errors the one that the scene names, else all."""
+    found = entry.get("errors", {})
+    errors = ", ".join(f"{name} {found[name]:.2g}" for name in ([measure] if measure in found else found))
     return (
         label,
         entry["steps"],
