@@ -15,7 +15,7 @@ from .neighbours import STORY
 FORMAT = 1
 WORDS = {8: "f64", 4: "f32"}
 NUMBERS = ("time", "dt", "longest", "seconds", "seconds_compile")
-COUNTS = ("steps", "floors")
+COUNTS = ("steps", "timed", "floors")
 UNREADABLE = (OSError, ValueError, EOFError, KeyError, zipfile.BadZipFile, zlib.error, NotImplementedError)
 
 

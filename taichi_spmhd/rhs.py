@@ -161,11 +161,11 @@ class RHS:
         return step
 
     @ti.kernel
-    def share(self, term: ti.template(), n: ti.i32, near: ti.types.ndarray(dtype=ti.i32, ndim=2),
+    def share(self, term: ti.template(), n: ti.i32, t: float, dt: float, near: ti.types.ndarray(dtype=ti.i32, ndim=2),
               rows: ti.types.ndarray(dtype=ti.i32, ndim=1), out: ti.types.ndarray(ndim=1)):  # fmt: skip
         """What one term adds to the rates of one particle, summed in absolute value over the evolved members."""
         for _ in range(1):
-            now = ti.Struct(t=0.0, dt=0.0)
+            now = ti.Struct(t=t, dt=dt)
             i, sums = self.pairs.mine(n, self.looked), self.lanes.totals(self.totals)
             if ti.static(term.has("pair")):
                 for block in range(rows[n] // self.lanes.width):

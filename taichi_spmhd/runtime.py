@@ -22,6 +22,7 @@ def _import_taichi():
         if "libX11" in str(error):
             raise InputError(_LIBX11) from error
         raise
+    taichi.set_logging_level(taichi.ERROR)  # a library that is not there is our sentence, not Taichi's
     return taichi
 
 

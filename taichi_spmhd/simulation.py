@@ -32,6 +32,7 @@ class Simulation:
         self.scene, self.dim = scene, scene.dim
         self.time, self.steps, self.floors, self.ill = 0.0, 0, 0, 0
         self.seconds, self.seconds_compile, self.dt, self.longest = 0.0, 0.0, 0.0, 0.0
+        self.timed, self.warm, self.ledger = 0, False, None  # steps whose seconds count; kernels compiled
         values = start if start is not None else state.opening(scene)
         self._build(scene, len(values["m"]))
         state.fill(self, values)
@@ -84,10 +85,10 @@ class Simulation:
         self.time += dt
         self.steps += 1
         spent = time.perf_counter() - clock
-        if self.steps == 1:
-            self.seconds_compile += spent  # the first step compiles the stepper's kernels
-        else:
-            self.seconds += spent
+        if self.warm:
+            self.seconds, self.timed = self.seconds + spent, self.timed + 1
+        else:  # the first step of this object compiles the stepper's kernels
+            self.seconds_compile, self.warm = self.seconds_compile + spent, True
 
     def run(self, until: float | None = None, watch: Callable | None = None) -> "Simulation":
         """Steps up to a time (default: the scene's t_end) in equal parts of what remains.

@@ -179,6 +179,6 @@ def loudest(sim, memory: int) -> str:
     for term in sim.rhs.parts:
         if term.has("pair") or term.has("local"):
             out = np.zeros(1, sim.particles.word)
-            sim.rhs.share(term, memory, sim.neighbours.near, sim.neighbours.count, out)
+            sim.rhs.share(term, memory, sim.time + sim.dt, sim.dt, sim.neighbours.near, sim.neighbours.count, out)
             shares[type(term).__name__] = np.inf if not np.isfinite(out[0]) else float(out[0])
     return max(shares, key=shares.get) if shares else "no term"

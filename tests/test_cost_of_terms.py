@@ -55,7 +55,7 @@ print(json.dumps(best))
 
 
 def child(tree: Path, folder: Path, code: str, *words: str) -> dict:
-    """What a child that finds the package in `tree` prints; its kernels are compiled there and then, and written out."""
+    """What a child that finds the package in `tree` prints; its kernels are compiled anew and written to `folder`."""
     folder.mkdir()
     environment = {**os.environ, "PYTHONPATH": str(tree), "TI_OFFLINE_CACHE_FILE_PATH": str(folder / "kernels")}
     environment["TI_PRINT_KERNEL_LLVM_IR_OPTIMIZED"] = "1"
@@ -73,7 +73,7 @@ def instructions(folder: Path) -> int:
 
 
 def tree_without_cleaning(folder: Path) -> Path:
-    """A copy of the package in which nobody has ever written cleaning.py; the benchmark, which lists it, stays behind."""
+    """A copy of the package without cleaning.py and its mention; the benchmark, which lists the term, stays behind."""
     copy = folder / "taichi_spmhd"
     shutil.copytree(PACKAGE, copy, ignore=shutil.ignore_patterns("__pycache__", "bench"))
     (copy / "terms" / "cleaning.py").unlink()

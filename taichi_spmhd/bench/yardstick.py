@@ -14,6 +14,20 @@ from ..lanes import best
 from ..runtime import ti
 
 COLUMNS = 6  # x, y, z, 1/h, m, P
+MARGIN = 1.6  # a branch or a running maximum in the pair loop costs 2 to 3.5 times; noise moved the ratios by 15 %
+
+# rates/yardstick by `spmhd bench --quick --threads 1`, 2026-11-22, Taichi 1.7.4, 2 AVX-512 cores (AMD EPYC) that others
+# used as well: the middle of three rounds, minima of 12 interleaved repeats each. At 32^3 in f64: 3.7, 2.7.
+EXPECTED = {
+    "mhd3d_f64": 3.3,
+    "mhd2d_f64": 2.3,
+    "hydro3d_f64": 2.5,
+    "hydro2d_f64": 1.5,
+    "mhd3d_f32": 2.4,
+    "mhd2d_f32": 2.5,
+    "hydro3d_f32": 1.55,
+    "hydro2d_f32": 1.6,
+}
 
 
 @ti.data_oriented

@@ -136,7 +136,7 @@ class Run:
         going = [sim for label, sim in self.sims.items() if label not in self.errors]
         t_end, seconds = self.plan.t_end, sum(sim.seconds for sim in self.sims.values())
         done = sum(min(1.0, sim.time / t_end) if t_end else 1.0 for sim in going) / len(going) if going else 1.0
-        updates = sum(len(sim) * max(sim.steps - 1, 0) for sim in self.sims.values())
+        updates = sum(len(sim) * sim.timed for sim in self.sims.values())
         self.progress.show(done, updates / seconds if seconds else 0.0)
 
     def close(self) -> None:

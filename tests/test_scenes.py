@@ -1,0 +1,57 @@
+"""Every scene that ships runs, at a small size: one variant in the default tests, all of them in the slow ones."""
+
+import numpy as np
+import pytest
+
+from taichi_spmhd import Simulation, load_scene
+from taichi_spmhd.library import shipped
+
+SMALL = {  # parameters that make a scene quick, and what it must have kept
+    "alfven_tensile": {"nx": 12, "t_end": 0.1},
+    "alfven_3d": {"nx": 16, "t_end": 0.2},
+    "uniform_field": {"nx": 16, "duration": 2.0},
+    "orszag_tang": {"nx": 32, "t_end": 0.1},
+    "blast": {"nx": 32, "t_end": 0.03},
+    "mhd_blast": {"nx": 32, "t_end": 0.03},
+    "sod": {"nx": 150, "t_end": 0.05},
+    "sound_wave": {"nx": 16, "t_end": 0.2},
+}
+
+
+def test_every_shipped_scene_is_tested():
+    assert set(SMALL) == set(shipped())
+
+
+def run_and_check(scene) -> None:
+    """Runs to its end: finite members, no floors, energy within what the scene's ledger and time step explain."""
+    with Simulation(scene) as sim:
+        sim.run()
+        assert sim.time == pytest.approx(scene.t_end)
+        assert all(np.isfinite(values).all() for values in sim.columns().values())
+        summary = sim.summary()
+    assert summary["floors"] == 0
+    # coarse runs: the rest is the time step's error and, with cleaning, what the damping takes; measured <= 4e-3
+    assert abs(summary["energy_drift"] - summary["energy_drift_predicted"]) < 1e-2
+
+
+@pytest.mark.parametrize("name", sorted(SMALL))
+def test_the_last_variant_of_each_scene_runs(name):
+    run_and_check(list(load_scene(name, **SMALL[name]).values())[-1])
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", sorted(SMALL))
+def test_all_variants_of_each_scene_run(name):
+    for scene in load_scene(name, **SMALL[name]).values():
+        run_and_check(scene)
+
+
+@pytest.mark.slow
+def test_sod_as_a_strip_runs():
+    run_and_check(load_scene("sod", nx=100, dim=2, t_end=0.05)["sod"])
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("lattice", ["square", "hexagonal"])
+def test_uniform_field_on_both_lattices_runs(lattice):
+    run_and_check(next(iter(load_scene("uniform_field", nx=16, duration=2.0, lattice=lattice, angle=30.0).values())))
