@@ -1,9 +1,9 @@
-"""Circularly polarised Alfven wave: particles clump along B unless the div B force is removed.
+"""Alfven wave: particles clump along B unless the div B force is removed.
 
-Lecture pp. 15-20; Toth 2000. P = 0.1 and B = 1, so P - B^2/2 < 0: neighbours along the field attract each other, the
-tensile instability. xi = 0 shows it from t about 0.4: rows of particles draw together into sheets perpendicular to B.
-xi = 1/2 and xi = 1 cure it. Smaller beta clumps harder. The wave has no shocks: a weak viscosity is enough.
-It costs about 10 s on two cores.
+Circularly polarised, at 30 degrees to the x axis (lecture pp. 15-20; Toth 2000). P = 0.1 and B = 1, so P - B^2/2 < 0:
+neighbours along the field attract each other, the tensile instability. xi = 0 shows it from t about 0.4: rows of
+particles draw together into sheets perpendicular to B. xi = 1/2 and xi = 1 cure it. Smaller beta clumps harder. The
+wave has no shocks: a weak viscosity is enough. It costs about 10 s on two cores.
 
     spmhd run scenes/alfven_tensile.py
 """

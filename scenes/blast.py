@@ -1,8 +1,8 @@
 """Blast wave in a gas without a field: a hot disc drives a circular shock.
 
-Lecture pp. 7-11. rho = 1; P = 10 inside r = 0.1, 0.1 outside. At t = 0.2 the shock stands at r = 0.441 and the contact at
-r = 0.279 (grid run, Athena++ 512^2). No magnetic field is listed, so none is stored or computed.
-It costs about 15 s on two cores.
+Lecture pp. 7-11. rho = 1; P = 10 inside r = 0.1, 0.1 outside. At t = 0.2 the shock stands at r = 0.441 and the contact
+at r = 0.279 (grid run, Athena++ 512^2). No magnetic field is listed, so none is stored or computed. It costs about 15
+s on two cores.
 
     spmhd run blast --set nx=64
 """

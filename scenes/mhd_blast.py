@@ -1,8 +1,8 @@
-"""Blast wave in a magnetised gas, field at 45 degrees: a slow shell runs along B, a fast shock across it.
+"""Magnetised blast wave: a slow shell runs along B, a fast shock across it.
 
-Lecture pp. 34-37. As `blast`, with |B| = 1 (beta = 0.2 outside). Without cleaning the density oscillates behind the shocks;
-with it h |div B| / |B| falls. A grid run (Athena++, 512^2) gives rho_max = 2.94 at t = 0.15. It costs about 30 s on
-two cores.
+Lecture pp. 34-37. As `blast`, with a field at 45 degrees, |B| = 1 (beta = 0.2 outside). Without cleaning the density
+oscillates behind the shocks; with it h |div B| / |B| falls. A grid run (Athena++, 512^2) gives rho_max = 2.94 at t =
+0.15. It costs about 30 s on two cores.
 
     spmhd run mhd_blast --set nx=64
 """

@@ -1,8 +1,8 @@
-"""Sod's shock tube: a rarefaction, a contact and a shock, beside the exact solution.
+"""Sod's shock tube: a rarefaction, a contact and a shock.
 
-Sod 1978; states 1, 0, 1 and 0.125, 0, 0.1, gamma = 1.4, t = 0.2. Exact plateaus: P = 0.30313, v = 0.92745, rho = 0.42632 and
-0.26557. dim=2 is a strip, periodic across. Equal masses: the dense side has 8 times as many particles a length.
-It costs about 3 s on two cores.
+Sod 1978; states 1, 0, 1 and 0.125, 0, 0.1, gamma = 1.4, t = 0.2. Exact plateaus: P = 0.30313, v = 0.92745, rho =
+0.42632 and 0.26557. dim=2 is a strip, periodic across. Equal masses: the dense side has 8 times as many particles a
+length. It costs about 3 s on two cores.
 
     spmhd run sod
 """

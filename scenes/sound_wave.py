@@ -1,4 +1,4 @@
-"""A linear sound wave: it returns to its start after one period, so the error is the scheme's own.
+"""A linear sound wave: what is wrong after one period is the scheme's own.
 
 Amplitude 1e-4, c_s = 1, period 1, no dissipation. The error falls with 1/N^2 until the kernel's bias shows; the
 quintic spline keeps falling, the cubic does not. It costs about 2 s on two cores.

@@ -1,8 +1,9 @@
-"""A uniform field in a gas at rest: nothing should happen, and at xi = 0 the lattice tears itself into sheets.
+"""A uniform field in a gas at rest: at xi = 0 the lattice tears itself up.
 
-Lecture pp. 15-20; physics of the growth: omega^2 = k^2 W [c_s^2 W + 2 (P + (xi - 1/2) B^2)/rho (1 - W)] for waves along B,
-W the kernel's Fourier transform. Unstable for xi < (1 - beta)/2, growing by e every 0.8 dx/v_A at beta = 0.1. Nothing
-dissipates here, so that the growth can be measured. It costs about 5 s on two cores.
+Nothing should happen, and with xi >= 1/2 nothing does. Lecture pp. 15-20; physics of the growth: omega^2 = k^2 W
+[c_s^2 W + 2 (P + (xi - 1/2) B^2)/rho (1 - W)] for waves along B, W the kernel's Fourier transform. Unstable for xi <
+(1 - beta)/2, growing by e every 0.8 dx/v_A at beta = 0.1. Nothing dissipates here, so that the growth can be measured.
+It costs about 5 s on two cores.
 
     spmhd run uniform_field --set beta=0.1 xi=0.5
 """

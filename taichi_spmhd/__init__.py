@@ -18,9 +18,10 @@ try:
     from .energy import Thermal
     from .eos import Adiabatic, Isothermal
     from .kernels import CubicSpline, Gaussian, QuinticSpline, WendlandC2, WendlandC4, WendlandC6
-    from .lattice import close_packed, cubic, displaced, hexagonal, jitter, line, spacing, square, step_lattice
+    from .lattice import close_packed, cubic, hexagonal, jitter, line, spacing, square
     from .library import load_scene
     from .picture import Picture
+    from .profiles import displaced, step_lattice
     from .render import snapshot as picture
     from .runtime import init
     from .scene import Scene

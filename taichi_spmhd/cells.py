@@ -111,7 +111,10 @@ class Cells:
         self.grid[1] = self.shape / np.maximum(self.grid[1], 1e-30)
         cells = int(self.shape.prod())
         if self.first.shape[0] < cells + 1:
-            self.first, self.slot = ti.ndarray(ti.i32, cells + 1 + cells // 4), ti.ndarray(ti.i32, cells + 1 + cells // 4)
+            self.first, self.slot = (
+                ti.ndarray(ti.i32, cells + 1 + cells // 4),
+                ti.ndarray(ti.i32, cells + 1 + cells // 4),
+            )
         self.locate(self.grid.astype(self.p.word), self.shape, self.cell_of)
         self.count(self.cell_of, self.first, self.slot, cells)
         self.cells = cells

@@ -2,7 +2,8 @@
 
     rho_i = sum_j m_j W(r_ij, h_i),   h_i = h_fact (m_i/rho_i)^(1/d),   Omega_i = 1 + h_i/(d rho_i) sum_j m_j dW/dh
 
-(lecture pp. 4, 10-11; Springel & Hernquist 2002, Price 2012). Newton iteration from the last h; bisection where it fails.
+(lecture pp. 4, 10-11; Springel & Hernquist 2002, Price 2012). Newton iteration from the last h; bisection where it
+fails.
 """
 
 from dataclasses import dataclass
@@ -36,9 +37,7 @@ class SumMass(Choice):
         r2 = d.dot(d)
         rinv = 1.0 / ti.sqrt(r2 + 1e-30)
         r = r2 * rinv
-        return ti.Struct(
-            e=d * rinv, r=r, Gi=j.m * i.g * kernel.df(r * i.hinv), Gj=j.m * j.g * kernel.df(r * j.hinv)
-        )
+        return ti.Struct(e=d * rinv, r=r, Gi=j.m * i.g * kernel.df(r * i.hinv), Gj=j.m * j.g * kernel.df(r * j.hinv))
 
 
 @ti.data_oriented
@@ -71,7 +70,7 @@ class Density:
         """The root of sum_j m_j f(r/h) = wanted between two smoothing lengths: the sum grows with h."""
         for _ in range(BISECTION):
             middle = 0.5 * (low + high)
-            mass, slope = self.sums(i, middle, rows, n, near)
+            mass, _ = self.sums(i, middle, rows, n, near)
             if mass < self.wanted(i):
                 low = middle
             else:

@@ -2,7 +2,8 @@
 
 All are branch-free (differences clamped at zero), so that loops over neighbours vectorise; f(q) and f'(q) vanish for
 q >= support. h = h_fact (m/rho)^(1/d); the default h_fact of each class is the one its neighbour number is known to
-work with. Norms re-integrated in the tests. Sources: Monaghan 1992; Wendland 1995; Dehnen & Aly 2012; Price et al. 2018.
+work with. Norms re-integrated in the tests. Sources: Monaghan 1992; Wendland 1995; Dehnen & Aly 2012; Price et al.
+2018.
 """
 
 from dataclasses import dataclass, replace
@@ -133,9 +134,7 @@ class WendlandC4(Kernel):
         a = above(1.0 - 0.5 * q)
         a4 = a * a * a * a
         return (
-            -3.5 * q * (1.0 + 2.0 * q) * a4
-            if ti.static(self.dim == 1)
-            else -14.0 / 3.0 * q * (1.0 + 2.5 * q) * a4 * a
+            -3.5 * q * (1.0 + 2.0 * q) * a4 if ti.static(self.dim == 1) else -14.0 / 3.0 * q * (1.0 + 2.5 * q) * a4 * a
         )
 
 

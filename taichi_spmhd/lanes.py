@@ -3,19 +3,16 @@
 A term is written for one neighbour, `(i.v - j.v).dot(w.e)`. In the loop the names stand for LANES neighbours: a number
 is a Taichi vector with one entry a neighbour, a vector is three of those (Vector3). The compiler turns each into one
 wide machine instruction, whatever the set of terms and whether or not it recognises the loop or the processor:
-explicit lanes are 2.9 times faster than its own vectorisation where it does not know the processor (measured, f64).
-On devices that are parallel by themselves LANES is 1 and everything is a plain number.
+what the compiler makes of a plain loop in f64 depends on the set of terms and on whether it knows the processor; with
+lanes the rates kernel is up to 2.2 times faster and never slower than 5 % (docs/architecture.md). In f32, and on
+devices that are parallel by themselves, there is one lane and everything is a plain number.
 """
-
-from types import SimpleNamespace
 
 from . import runtime
 from .errors import InputError
 from .runtime import ti
 from .types import real, vec3, vecd
-
-Field, SharedArray = ti.Field, ti.simt.block.SharedArray
-
+from .vector import Record, Vector3, nothing, traced
 
 WIDEST = 8
 
@@ -29,112 +26,9 @@ def best() -> int:
     return WIDEST if running["arch"] == "cpu" and running["precision"] == "f64" else 1
 
 
-def traced(function):
-    """Marks a Python function that builds expressions while a kernel is compiled, so that Taichi does not warn of it."""
-    function._is_taichi_function, function.func = True, SimpleNamespace(has_print=False)
-    return function
-
-
-def nothing(part) -> bool:
-    """A component that is zero by construction, as e_z in two dimensions: it costs no instruction."""
-    return isinstance(part, float) and part == 0.0
-
-
-def times(a, b):
-    return 0.0 if nothing(a) or nothing(b) else a * b
-
-
-def plus(a, b):
-    return b if nothing(a) else a if nothing(b) else a + b
-
-
-def minus(a, b):
-    return a if nothing(b) else -b if nothing(a) else a - b
-
-
-class Vector3(Field, SharedArray):
-    """Three components, each a number per lane; the arithmetic of a vector.
-
-    Its bases only tell Taichi to leave the arithmetic (as for a Field) and v[0] (as for a SharedArray) to this class.
-    """
-
-    _data_oriented = True  # a local name for it is the thing itself
-
-    def __init__(self, parts):
-        self.parts = tuple(parts)
-
-    def subscript(self, axis):
-        return self.parts[axis]
-
-    __getitem__ = subscript
-
-    def __add__(self, other):
-        return Vector3(plus(a, b) for a, b in zip(self.parts, other.parts, strict=True))
-
-    def __sub__(self, other):
-        return Vector3(minus(a, b) for a, b in zip(self.parts, other.parts, strict=True))
-
-    def __mul__(self, number):
-        return Vector3(times(a, number) for a in self.parts)
-
-    __rmul__ = __mul__
-
-    def __truediv__(self, number):
-        return Vector3(0.0 if nothing(a) else a / number for a in self.parts)
-
-    def __neg__(self):
-        return Vector3(0.0 if nothing(a) else -a for a in self.parts)
-
-    @property
-    def x(self):
-        return self.parts[0]
-
-    @property
-    def y(self):
-        return self.parts[1]
-
-    @property
-    def z(self):
-        return self.parts[2]
-
-    @traced
-    def dot(self, other):
-        total = 0.0
-        for a, b in zip(self.parts, other.parts, strict=True):
-            total = plus(total, times(a, b))
-        return total
-
-    @traced
-    def cross(self, other):
-        (a, b, c), (u, v, w) = self.parts, other.parts
-        return Vector3(minus(times(p, s), times(q, r)) for p, q, r, s in ((b, c, v, w), (c, a, w, u), (a, b, u, v)))
-
-    @traced
-    def norm_sqr(self):
-        return self.dot(self)
-
-    @traced
-    def norm(self):
-        return ti.sqrt(self.dot(self))
-
-
-class Record:
-    """A particle, or as many neighbours as there are lanes: members by name."""
-
-    _data_oriented = True
-
-    def __init__(self, members: dict):
-        self.__dict__.update(members)
-
-    def __getattr__(self, name):
-        if name.startswith("_"):
-            raise AttributeError(name)
-        raise InputError(f"a pair loop uses member {name}, which no listed part declares: add it to the term's `reads`")
-
-
 @ti.data_oriented
 class Lanes:
-    """Loads neighbours into lanes and sums lanes up again; `fields` {name: (field, type name)} are what can be loaded."""
+    """Loads neighbours into lanes and sums lanes up again; `fields` {name: (field, type name)} can be loaded."""
 
     def __init__(self, width: int, fields: dict, dim: int):
         self.width, self.dim = width, dim
@@ -181,7 +75,9 @@ class Lanes:
     @traced
     def totals(self, kinds: dict):
         """Sums that start at zero, one number per lane."""
-        return Totals(self.across, {name: [self.start() for _ in range(3 if kind is vec3 else 1)] for name, kind in kinds.items()})
+        return Totals(
+            self.across, {name: [self.start() for _ in range(3 if kind is vec3 else 1)] for name, kind in kinds.items()}
+        )
 
     @traced
     def start(self):
@@ -192,7 +88,9 @@ class Lanes:
     def summed(self, totals: "Totals"):
         """Totals over the lanes, as a plain struct."""
         rows = {name: list(parts) for name, parts in totals.parts.items()}
-        return ti.Struct({name: ti.lang.matrix.make_matrix(row) if len(row) == 3 else row[0] for name, row in rows.items()})
+        return ti.Struct(
+            {name: ti.lang.matrix.make_matrix(row) if len(row) == 3 else row[0] for name, row in rows.items()}
+        )
 
     @ti.func
     def slowest(self):
@@ -211,12 +109,10 @@ class Lanes:
     @ti.func
     def speed(self, most):
         """The running maximum as a number."""
-        found = ti.cast(0.0, float)
-        if ti.static(self.width > 1):
-            found = most
-        else:
-            found = ti.cast(ti.bit_cast(most, ti.f32), float)
-        return found
+        found = most
+        if ti.static(self.width == 1):
+            found = ti.bit_cast(most, ti.f32)
+        return ti.cast(found, float)
 
     @ti.func
     def across(self, part):
@@ -236,7 +132,9 @@ class Totals:
         """Add every key of the struct a hook of `source` returned; heat is dropped where no energy is evolved."""
         for name in part.keys:
             if name not in self.parts and name != "u":
-                raise InputError(f"{type(source).__name__} returns a rate for {name}, which nothing evolves: declare it in `evolves`")
+                raise InputError(
+                    f"{type(source).__name__} returns a rate for {name}, which nothing evolves: declare it in `evolves`"
+                )
             values = part[name].parts if isinstance(part[name], Vector3) else [part[name]]
             for total, value in zip(self.parts.get(name, ()), values, strict=False):
                 if not nothing(value):

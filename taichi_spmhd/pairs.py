@@ -1,10 +1,11 @@
 """From list entries to the records of neighbours and the pair's geometry: periodic images, mirror images, lanes."""
 
 from .boundary import LOWER, UPPER
-from .lanes import Lanes, Vector3, traced
-from .neighbours import IMAGE
+from .lanes import Lanes
 from .runtime import ti
+from .search import IMAGE
 from .types import integer
+from .vector import Vector3, traced
 
 TINY = 1e-30  # keeps r > 0 for the pair (i, i), whose unit vector is then zero
 

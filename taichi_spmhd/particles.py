@@ -59,7 +59,9 @@ class Particles:
     def bytes_each(self) -> int:
         """Bytes of memory a particle, permutation buffers and rates included, the neighbour list not."""
         word = self.word().itemsize
-        size = {kind: (4 if kind is integer else word * components(kind, self.dim)) for kind in set(self.members.values())}
+        size = {
+            kind: (4 if kind is integer else word * components(kind, self.dim)) for kind in set(self.members.values())
+        }
         state = sum(size[kind] for kind in self.members.values())
         rate = sum(word * components(kind, self.dim) for kind in self.evolved.values())
         return 2 * state + (2 + 2 * len(self.companions)) * rate + 4
@@ -102,7 +104,9 @@ class Particles:
             self.state[n].id = ids[n]
             for name, kind, first in ti.static(self.layout):
                 if ti.static(name in self.scalars):
-                    self.state.get_member_field(name)[n] = ti.cast(table[n, first], self.state.get_member_field(name).dtype)
+                    self.state.get_member_field(name)[n] = ti.cast(
+                        table[n, first], self.state.get_member_field(name).dtype
+                    )
                 else:
                     for c in ti.static(range(kind)):
                         self.state.get_member_field(name)[n][c] = table[n, first + c]

@@ -139,7 +139,9 @@ class RHS:
             total = self.finish(self.p.state[n], self.lanes.summed(sums), now)
             for key in ti.static(self.p.names):
                 self.p.rate.get_member_field(key)[n] = total[key]
-            ti.atomic_min(longest, ti.cast(self.step_of(self.p.state[n], total, self.lanes.speed(fastest), now), ti.f32))
+            ti.atomic_min(
+                longest, ti.cast(self.step_of(self.p.state[n], total, self.lanes.speed(fastest), now), ti.f32)
+            )
         return longest
 
     @ti.func

@@ -68,7 +68,9 @@ def init(arch: str = "auto", precision: str = "f64", threads: int | None = None)
     wanted = {"arch": _choose(arch, precision), "precision": precision, "threads": threads or os.cpu_count() or 1}
     if _current:
         if wanted != _current:
-            raise InputError(f"Taichi already runs with {_current}; one process cannot change to {wanted}: start a new one")
+            raise InputError(
+                f"Taichi already runs with {_current}; one process cannot change to {wanted}: start a new one"
+            )
         return dict(_current)
     with contextlib.redirect_stdout(io.StringIO()):  # Taichi announces its device on stdout
         _start(wanted)

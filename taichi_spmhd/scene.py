@@ -22,9 +22,9 @@ from .terms import Part, Term
 class Scene:
     """Terms add, choices replace.
 
-    box: lengths or intervals per axis; positions: (N, d); start(x) -> {"rho", "v", "P" or "u", "B", "psi", "mass"}, arrays
-    (N,) or (N, 3) or numbers; terms: the effects; eos, kernel, density, energy, stepper, boundary: one choice each.
-    exact(x, t) -> {member: array}: the solution where there is one, `measure` the member whose error is quoted;
+    box: lengths or intervals per axis; positions: (N, d); start(x) -> {"rho", "v", "P" or "u", "B", "psi", "mass"},
+    arrays (N,) or (N, 3) or numbers; terms: the effects; eos, kernel, density, energy, stepper, boundary: one choice
+    each. exact(x, t) -> {member: array}: the solution where there is one, `measure` the member whose error is quoted;
     reference: path of a stored map. Without "mass" the mass is rho times volume / N.
     """
 
@@ -79,7 +79,9 @@ def in_order(parts: tuple) -> tuple:
     waiting, done, made = list(parts), [], set()
     ahead = {name for part in parts for name in part.makes}
     while waiting:
-        ready = next((p for p in waiting if all(n in made or n not in ahead or n in p.makes for n in p.reads)), waiting[0])
+        ready = next(
+            (p for p in waiting if all(n in made or n not in ahead or n in p.makes for n in p.reads)), waiting[0]
+        )
         waiting.remove(ready)
         done.append(ready)
         made |= set(ready.makes)
@@ -97,7 +99,9 @@ CURES = {
 def check(scene: Scene) -> None:
     """Raises InputError, with the cure, for a scene that cannot be simulated."""
     if scene.positions.ndim != 2 or scene.dim != scene.box.dim:
-        raise InputError(f"positions of shape {scene.positions.shape} do not fit a {scene.box.dim}-D box: give (N, {scene.box.dim})")
+        raise InputError(
+            f"positions of shape {scene.positions.shape} do not fit a {scene.box.dim}-D box: give (N, {scene.box.dim})"
+        )
     if len(scene.positions) == 0:
         raise InputError("positions: there are no particles; raise nx")
     if not scene.t_end >= 0:

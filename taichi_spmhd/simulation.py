@@ -7,6 +7,7 @@ import numpy as np
 
 from . import runtime, state
 from .density import Density
+from .failure import fail
 from .lanes import best as lanes
 from .neighbours import Neighbours
 from .pairs import Pairs
@@ -74,12 +75,12 @@ class Simulation:
         self.begin()
         dt = self.longest if dt is None else dt
         if not dt > SMALLEST_STEP * max(self.scene.t_end, 1e-30) or self.time + dt == self.time:
-            state.fail(self, f"the time step collapsed to {dt:.3g}")
+            fail(self, f"the time step collapsed to {dt:.3g}")
         clock = time.perf_counter()
         self.dt = dt
         self.longest = self.scene.stepper.step(self, dt)
         if self.ill:
-            state.fail(self, "not finite or negative thermal energy")
+            fail(self, "not finite or negative thermal energy")
         if self.rhs.keys["settle"]:
             self.rhs.settle(self.time, dt)
         self.time += dt
@@ -148,7 +149,7 @@ class Simulation:
         return summary(self)
 
     def save(self, path) -> None:
-        """Write all it takes to go on with the same bits; atomic: an existing file is replaced only by a complete one."""
+        """Write all it takes to go on with the same bits; an existing file is replaced only by a complete one."""
         from .checkpoint import save
 
         save(self, path)
@@ -169,4 +170,3 @@ class Simulation:
 
     def __exit__(self, *_) -> None:
         self.close()
-

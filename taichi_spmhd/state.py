@@ -4,14 +4,14 @@ import numpy as np
 
 from .boundary import LOWER
 from .eos import Isothermal
-from .errors import InputError, RunError
+from .errors import InputError
 
 VECTORS = ("v", "B")
 KNOWN = ("rho", "v", "P", "u", "B", "psi", "mass")
 
 
 def opening(scene) -> dict[str, np.ndarray]:
-    """What the scene's start(x) says, as full arrays: x, m, rho, v, P or u, B, psi. Raises InputError, one line, with the cure."""
+    """What the scene's start(x) says, as full arrays: x, m, rho, v, P or u, B, psi. Raises InputError."""
     x = scene.positions
     given = scene.start(x)
     for name in given:
@@ -77,9 +77,8 @@ def check_apart(x: np.ndarray, box, periodic: tuple) -> None:
     same = (np.diff(wrapped[order], axis=0) == 0).all(axis=1)
     if same.any():
         k = int(np.argmax(same))
-        raise InputError(
-            f"positions: particles {order[k]} and {order[k + 1]} are on one spot {wrapped[order[k]].tolist()}; move one of them"
-        )
+        one, other, spot = order[k], order[k + 1], wrapped[order[k]].tolist()
+        raise InputError(f"positions: particles {one} and {other} are on one spot {spot}; move one of them")
 
 
 def fill(sim, values: dict) -> None:
@@ -143,42 +142,3 @@ def rates(sim) -> dict[str, np.ndarray]:
     if sim.neighbours.retell(story):
         sim.neighbours.rebuild()
     return out
-
-
-def fail(sim, what: str) -> None:
-    """Raises RunError with the particle, the place, the term with the largest share in its rates, and the time."""
-    table, ids = sim.particles.table()
-    memory, name = worst(sim, table)
-    columns = {name: table[:, first : first + kind] for name, kind, first in sim.particles.layout}
-    place = ", ".join(f"{c:.4g}" for c in columns["x"][memory])
-    term = loudest(sim, memory)
-    raise RunError(
-        f"{what} at t = {sim.time:.6g}, step {sim.steps + 1}: particle {ids[memory]} at ({place}), member {name}, "
-        f"largest rate from {term}; try a smaller time step (stepper cour), more particles, or a remedy for this term"
-    )
-
-
-def worst(sim, table: np.ndarray) -> tuple[int, str]:
-    """The particle (in memory order) and the member that are ill, else those with the shortest step."""
-    rates = sim.particles.rates()
-    for name, kind, first in sim.particles.layout:
-        values = table[:, first : first + kind]
-        bad = ~np.isfinite(values).all(axis=1)
-        if name == "u":
-            bad |= values[:, 0] <= 0
-        if name in rates:
-            bad |= ~np.isfinite(rates[name]).reshape(len(table), -1).all(axis=1)
-            if bad.any():
-                return int(np.argmax(bad)), name
-    return int(np.argmax(np.abs(rates["v"]).sum(axis=1))), "v"
-
-
-def loudest(sim, memory: int) -> str:
-    """The term whose contribution to this particle's rates is not finite, or the largest."""
-    shares = {}
-    for term in sim.rhs.parts:
-        if term.has("pair") or term.has("local"):
-            out = np.zeros(1, sim.particles.word)
-            sim.rhs.share(term, memory, sim.time + sim.dt, sim.dt, sim.neighbours.near, sim.neighbours.count, out)
-            shares[type(term).__name__] = np.inf if not np.isfinite(out[0]) else float(out[0])
-    return max(shares, key=shares.get) if shares else "no term"

@@ -43,7 +43,7 @@ class Advance:
 
     @ti.kernel
     def predict(self, dt: float) -> ti.i32:
-        """x += dt (v + dt/2 a) and every evolved member q += dt dq/dt, the old rates kept; returns the floors of u hit."""
+        """x += dt (v + dt/2 a), every evolved member q += dt dq/dt, old rates kept; returns the floors of u hit."""
         floors = 0
         for n in range(self.p.n):
             s, r = self.p.state[n], self.p.rate[n]
@@ -75,7 +75,7 @@ class Advance:
 
     @ti.kernel
     def combine(self, saved: ti.template(), a: float, b: float, dt: float) -> ti.i32:
-        """y = a y0 + b (y + dt dy/dt), a + b = 1; positions by their distance to y0, since they may have been wrapped."""
+        """y = a y0 + b (y + dt dy/dt), a + b = 1; positions by their distance to y0: they may have been wrapped."""
         found = 0
         for n in range(self.p.n):
             s, r, start = self.p.state[n], self.p.rate[n], saved[n]
@@ -110,8 +110,8 @@ class Stepper(Choice):
 class LeapfrogKDK(Stepper):
     """v^(1/2) = v + dt/2 a,  x += dt v^(1/2),  v = v^(1/2) + dt/2 a_new:   kick, drift, kick; one evaluation a step
 
-    u, B/rho and psi/c_h likewise; rates are evaluated with v, u, b predicted to the end of the step (Price et al. 2018).
-    Second order; reversible for smooth forces.
+    u, B/rho and psi/c_h likewise; rates are evaluated with v, u, b predicted to the end of the step (Price et al.
+    2018). Second order; reversible for smooth forces.
     """
 
     cour: float = 0.3

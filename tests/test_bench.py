@@ -88,10 +88,9 @@ def test_the_yardstick_counts_true_neighbours_and_sums_to_zero(simulate):
 @pytest.mark.parametrize("precision", ["f64", "f32"])
 def test_the_pair_loop_is_vectorised(tmp_path, precision):
     """Rates against a bare loop in the same child: a careless line in a term costs 2 to 3.5 times and shows here."""
-    mine = [case for case in CASES if case.endswith(precision)]
-    slow = {
-        row["case"]: row["rates_per_yardstick"]
-        for row in rows(tmp_path, "--quick", "--threads", "1", "--cases", *mine)
-        if row["rates_per_yardstick"] > MARGIN * EXPECTED[row["case"]]
-    }
+    slow = {case: 0.0 for case in CASES if case.endswith(precision)}
+    for _ in range(3):  # a busy machine can spoil a round; a loop that is not vectorised fails every time
+        made = rows(tmp_path, "--quick", "--threads", "1", "--cases", *slow) if slow else []
+        costs = {row["case"]: row["rates_per_yardstick"] for row in made}
+        slow = {case: cost for case, cost in costs.items() if cost > MARGIN * EXPECTED[case]}
     assert not slow, f"rates/yardstick {slow} against {EXPECTED}: look for a branch or a running maximum in a term"

@@ -15,9 +15,9 @@ import pytest
 from taichi_spmhd import checkpoint, runtime  # noqa: F401  (child processes import * from here)
 from taichi_spmhd.errors import InputError
 from taichi_spmhd.lattice import jitter, square
-from taichi_spmhd.neighbours import LANES
 from taichi_spmhd.runtime import ti
 from taichi_spmhd.scene import Scene
+from taichi_spmhd.search import LANES
 from taichi_spmhd.simulation import Simulation
 from taichi_spmhd.terms import (
     Cleaning,

@@ -5,9 +5,7 @@ from math import sqrt
 import numpy as np
 import pytest
 
-from taichi_spmhd.box import as_box
-from taichi_spmhd.errors import InputError
-from taichi_spmhd.lattice import (
+from taichi_spmhd import (
     close_packed,
     cubic,
     displaced,
@@ -18,6 +16,8 @@ from taichi_spmhd.lattice import (
     square,
     step_lattice,
 )
+from taichi_spmhd.box import as_box
+from taichi_spmhd.errors import InputError
 
 # one awkward box per lattice: nothing fits without stretching
 LATTICES = {

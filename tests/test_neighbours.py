@@ -12,9 +12,9 @@ from taichi_spmhd.errors import RunError
 from taichi_spmhd.kernels import CubicSpline
 from taichi_spmhd.lattice import cubic as cubic_lattice
 from taichi_spmhd.lattice import jitter, line, square
-from taichi_spmhd.neighbours import IMAGE, LANES
 from taichi_spmhd.runtime import ti
 from taichi_spmhd.scene import Scene
+from taichi_spmhd.search import IMAGE, LANES
 from taichi_spmhd.terms import Induction, Pressure, Stress
 
 SUPPORT = 2.0  # of the cubic spline, in h

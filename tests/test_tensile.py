@@ -21,8 +21,8 @@ def growth_rate(scene) -> float:
 
 @pytest.mark.parametrize(("kernel", "analytic"), [(CubicSpline(), 1.29), (WendlandC4(), 1.28)])
 def test_the_instability_grows_as_fast_as_linear_theory_says(kernel, analytic):
-    # fastest mode of the linearised operator, hexagonal lattice, beta = 0.1. The fit sees the mean over many modes, so a
-    # little less: measured 1.237 and 1.214. 10 % is what this recipe can tell.
+    # fastest mode of the linearised operator, hexagonal lattice, beta = 0.1. The fit sees the mean over many modes, so
+    # a little less: measured 1.237 and 1.214. 10 % is what this recipe can tell.
     scene = load_scene("uniform_field", nx=NX, beta=0.1, noise=1e-6)["xi = 0"]
     assert growth_rate(scene.but(kernel=kernel, density=SumMass(1e-8))) == pytest.approx(analytic, rel=0.1)
 
@@ -30,7 +30,8 @@ def test_the_instability_grows_as_fast_as_linear_theory_says(kernel, analytic):
 @pytest.mark.parametrize("xi", [0.5, 1.0])
 @pytest.mark.parametrize(("kernel", "lattice"), [(WendlandC4(), "hexagonal"), (CubicSpline(), "square")])
 def test_with_xi_a_noisy_lattice_keeps_its_noise(kernel, lattice, xi):
-    # 30 dx/v_A are 38 e-foldings of the unstable case; a stable lattice only oscillates about its start (measured <= 1.03)
+    # 30 dx/v_A are 38 e-foldings of the unstable case; a stable lattice only oscillates about its start (measured <=
+    # 1.03)
     scene = load_scene("uniform_field", nx=NX, beta=0.1, xi=xi, lattice=lattice)[f"xi = {xi:g}"].but(kernel=kernel)
     regular = (hexagonal if lattice == "hexagonal" else square)(scene.box, NX)
 

@@ -28,7 +28,8 @@ def test_the_alfven_wave_converges_to_second_order_with_the_quintic():
 
 @pytest.mark.slow
 def test_the_cubic_stalls_where_its_bias_takes_over():
-    # 18 neighbours: the kernel's own error in grad W does not fall with nx. Measured 3.9e-3 and 4.3e-3: a lesson, not a bug
+    # 18 neighbours: the kernel's own error in grad W does not fall with nx. Measured 3.9e-3 and 4.3e-3: a lesson, not
+    # a bug
     coarse, fine = (alfven_error(nx, CubicSpline()) for nx in (32, 64))
     assert 2e-3 < coarse < 7e-3
     assert fine > 0.6 * coarse

@@ -17,8 +17,8 @@ def line(row: dict) -> str:
 
 def tables(rows: list[dict]) -> None:
     """Speed and size, then where the step goes in ns a particle."""
-    head = ("case", "particles", "neighbours", "listed", "M updates/s", "spread", "builds/step", "rates/yardstick",
-            "list GB/s", "bytes", "compile s")  # fmt: skip
+    head = ("case", "particles", "neighbours", "listed", "M updates/s", "spread", "cores", "builds/step",
+            "rates/yardstick", "list GB/s", "bytes", "compile s")  # fmt: skip
     table(head, [speed(row) for row in rows], title="\nFull steps")
     head = ("case", "ns/particle", *PHASES, "explained")
     table(head, [shares(row) for row in rows], title="\nWhere a step goes (ns a particle)")
@@ -33,6 +33,7 @@ def speed(row: dict) -> list[str]:
         f"{row['listed']:.1f}",
         f"{row['updates_per_s'] / 1e6:.3f}",
         f"{100 * row['spread']:.0f} %",
+        f"{row['cores']:.2f}",
         f"{row['builds_per_step']:.2f}",
         f"{row['rates_per_yardstick']:.2f}",
         f"{row['list_GB_per_s']:.2f}",

@@ -17,7 +17,7 @@ COLUMNS = 6  # x, y, z, 1/h, m, P
 MARGIN = 1.6  # a branch or a running maximum in the pair loop costs 2 to 3.5 times; noise moved the ratios by 15 %
 
 # rates/yardstick by `spmhd bench --quick --threads 1`, 2026-11-22, Taichi 1.7.4, 2 AVX-512 cores (AMD EPYC) that others
-# used as well: the middle of three rounds, minima of 12 interleaved repeats each. At 32^3 in f64: 3.7, 2.7.
+# used as well: the middle of three rounds, minima of interleaved repeats each. At 32^3 in f64: 3.7, 2.7.
 EXPECTED = {
     "mhd3d_f64": 3.3,
     "mhd2d_f64": 2.3,

@@ -21,9 +21,10 @@ A part is a frozen dataclass. Everything below is optional.
     max_dt(self, i, now)                 the longest step this effect allows otherwise
     settle(self, i, now) -> Struct       members renewed in place at the end of a step
 
-`i` and `j` are particle records, `w` the pair's weights (w.e, w.r, w.Gi, w.Gj), `now` the present moment (now.t, now.dt = the step being taken, 0 before the first).
-A `pair` is branch-free (min, max, select) and vanishes by itself for j = i and outside the support, because it is
-built from w.Gi, w.Gj and differences. Numbers of a frozen term are compile-time constants.
+`i` and `j` are particle records, `w` the pair's weights (w.e, w.r, w.Gi, w.Gj), `now` the present moment (now.t,
+now.dt = the step being taken, 0 before the first). A `pair` is branch-free (min, max, select) and vanishes by itself
+for j = i and outside the support, because it is built from w.Gi, w.Gj and differences. Numbers of a frozen term are
+compile-time constants.
 """
 
 from dataclasses import fields
@@ -56,8 +57,13 @@ class Part:
         return (type(self).__doc__ or type(self).__name__).strip().splitlines()[0]
 
     def __str__(self) -> str:
-        given = [f"{f.name}={getattr(self, f.name)!r}" for f in fields(self) if getattr(self, f.name) != f.default]
+        given = (f"{f.name}={shown(getattr(self, f.name))}" for f in fields(self))
         return f"{type(self).__name__}({', '.join(given)})"
+
+
+def shown(value) -> str:
+    """A parameter as a reader wants it: four digits are enough."""
+    return f"{value:.4g}" if isinstance(value, float) else repr(value)
 
 
 class Term(Part):

@@ -8,10 +8,10 @@ from .base import Term
 
 @dataclass(frozen=True)
 class Cleaning(Term):
-    """d(B/rho)_i/dt = - sum_j ( psi_i Gi + psi_j Gj ) e,   dy_i/dt = - c_h div B - sigma c_h y / h - y div v / 2,   psi = c_h y
+    """d(B/rho)_i/dt = - sum_j ( psi_i Gi + psi_j Gj ) e,   dy/dt = - c_h div B - (sigma c_h/h + div v/2) y
 
-    Hyperbolic divergence cleaning with a cleaning speed per particle (lecture pp. 27-30; Dedner et al. 2002; Tricco, Price &
-    Bate 2016). y = psi/c_h is evolved, c_h = f_clean vw. The difference div B and the symmetric grad psi are
+    Hyperbolic divergence cleaning with a cleaning speed per particle (lecture pp. 27-30; Dedner et al. 2002; Tricco,
+    Price & Bate 2016). y = psi/c_h is evolved, c_h = f_clean vw. The difference div B and the symmetric grad psi are
     conjugate, so magnetic + cleaning energy (y^2/2 rho per mass) never grows, whatever c_h does in space and time.
     Advice: sigma = 0.3 in 2-D, 1 in 3-D (the default chooses); f_clean > 1 cleans more and costs time step.
     """

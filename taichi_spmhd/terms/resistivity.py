@@ -8,11 +8,13 @@ from .base import Term
 
 @dataclass(frozen=True)
 class Resistivity(Term):
-    """d(B/rho)_i/dt = alpha/2 sum_j v_B B_ij ( Gi + Gj ),   v_B = |v_ij x e|,   du_i/dt = - alpha/4 sum_j v_B B_ij^2 ( Gi + Gj )
+    """d(B/rho)_i/dt = alpha/2 sum_j v_B B_ij ( Gi + Gj ),   v_B = |v_ij x e|
+
+    and the heat du_i/dt = - alpha/4 sum_j v_B B_ij^2 ( Gi + Gj ) >= 0.
 
     Artificial resistivity for magnetic shocks and current sheets (lecture p. 21; Price et al. 2018). Vanishes where
-    there is no velocity jump across the pair's line, so smooth fields keep their strength. What the field loses heats the gas:
-    total energy is conserved exactly. Advice: alpha = 1.
+    there is no velocity jump across the pair's line, so smooth fields keep their strength. What the field loses heats
+    the gas: total energy is conserved exactly. Advice: alpha = 1.
     """
 
     alpha: float = 1.0

@@ -8,11 +8,12 @@ from .viscosity import Viscosity
 
 @dataclass(frozen=True)
 class CullenDehnen(Viscosity):
-    """Viscosity with alpha_i of its own: alpha_loc = 10 h^2 A / c_s^2,   A = D^2/(D^2 + |curl v|^2) max(-d(div v)/dt, 0)
+    """Viscosity with alpha_i of its own: alpha_loc = 10 h^2 A / c_s^2,   A = D^2/(D^2 + |curl v|^2) max(-d div v/dt, 0)
 
     Cullen & Dehnen 2010 as simplified by Price et al. 2018: alpha jumps to alpha_loc (within 0..alpha) where a
-    compression sets in, D = max(-div v, 0), and decays over h/(0.1 c_s) behind the shock. d(div v)/dt is the finite difference
-    over the last step. Use it in place of Viscosity: nearly no viscosity in smooth flow, full `alpha` in shocks.
+    compression sets in, D = max(-div v, 0), and decays over h/(0.1 c_s) behind the shock. d(div v)/dt is the finite
+    difference over the last step. Use it in place of Viscosity: nearly no viscosity in smooth flow, full `alpha` in
+    shocks.
     """
 
     reads = {**Viscosity.reads, "cs": real, "h": real}

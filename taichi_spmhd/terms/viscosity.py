@@ -11,9 +11,9 @@ class Viscosity(Term):
     """dv_i/dt = - sum_j ( q_i Gi + q_j Gj ) e,   q = - rho/2 (alpha vw - beta mu) mu,   mu = min(v_ij.e, 0)
 
     Artificial viscosity for approaching pairs, so that shocks are spread over a few particles (lecture p. 21;
-    Monaghan 1997; Price et al. 2018). Each particle takes its own heat, du_i/dt = sum_j q_i Gi mu >= 0; momentum, angular
-    momentum and energy are conserved exactly. Advice: alpha = 1 and beta = 2 for shocks; less, or the CullenDehnen
-    switch (which replaces the constant alpha), where the flow is smooth.
+    Monaghan 1997; Price et al. 2018). Each particle takes its own heat, du_i/dt = sum_j q_i Gi mu >= 0; momentum,
+    angular momentum and energy are conserved exactly. Advice: alpha = 1 and beta = 2 for shocks; less, or the
+    CullenDehnen switch (which replaces the constant alpha), where the flow is smooth.
     """
 
     alpha: float = 1.0
