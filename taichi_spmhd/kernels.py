@@ -50,6 +50,11 @@ class Kernel:
         """d f(q) + q f'(q): dW/dh = - sigma / h^(d+1) times this."""
         return self.dim * self.f(q) + q * self.df(q)
 
+    @ti.func
+    def bend(self, q):
+        """q times the derivative of `dh`: how the sum over it changes with h."""
+        return q * ((self.dim + 1) * self.df(q) + q * self.ddf(q))
+
 
 @dataclass(frozen=True)
 class CubicSpline(Kernel):
@@ -68,6 +73,10 @@ class CubicSpline(Kernel):
     def df(self, q):
         a, b = above(2.0 - q), above(1.0 - q)
         return 3.0 * b * b - 0.75 * a * a
+
+    @ti.func
+    def ddf(self, q):
+        return 1.5 * above(2.0 - q) - 6.0 * above(1.0 - q)
 
 
 @dataclass(frozen=True)
@@ -91,6 +100,11 @@ class QuinticSpline(Kernel):
         a2, b2, c2 = a * a, b * b, c * c
         return -5.0 * a2 * a2 + 30.0 * b2 * b2 - 75.0 * c2 * c2
 
+    @ti.func
+    def ddf(self, q):
+        a, b, c = above(3.0 - q), above(2.0 - q), above(1.0 - q)
+        return 20.0 * a * a * a - 120.0 * b * b * b + 300.0 * c * c * c
+
 
 @dataclass(frozen=True)
 class WendlandC2(Kernel):
@@ -109,6 +123,11 @@ class WendlandC2(Kernel):
     def df(self, q):
         a = above(1.0 - 0.5 * q)
         return -3.0 * q * a * a if ti.static(self.dim == 1) else -5.0 * q * a * a * a
+
+    @ti.func
+    def ddf(self, q):
+        a = above(1.0 - 0.5 * q)
+        return 3.0 * a * (q - a) if ti.static(self.dim == 1) else a * a * (7.5 * q - 5.0 * a)
 
 
 @dataclass(frozen=True)
@@ -135,6 +154,16 @@ class WendlandC4(Kernel):
         a4 = a * a * a * a
         return (
             -3.5 * q * (1.0 + 2.0 * q) * a4 if ti.static(self.dim == 1) else -14.0 / 3.0 * q * (1.0 + 2.5 * q) * a4 * a
+        )
+
+    @ti.func
+    def ddf(self, q):
+        a = above(1.0 - 0.5 * q)
+        a3 = a * a * a
+        return (
+            -3.5 * a3 * ((1.0 + 4.0 * q) * a - 2.0 * q * (1.0 + 2.0 * q))
+            if ti.static(self.dim == 1)
+            else -14.0 / 3.0 * a3 * a * ((1.0 + 5.0 * q) * a - 2.5 * q * (1.0 + 2.5 * q))
         )
 
 
@@ -168,6 +197,16 @@ class WendlandC6(Kernel):
             else -q * a6 * a * (5.5 + q * (19.25 + 22.0 * q))
         )
 
+    @ti.func
+    def ddf(self, q):
+        a = above(1.0 - 0.5 * q)
+        a5 = a * a * a * a * a
+        return (
+            -0.375 * a5 * (a * (12.0 + q * (72.0 + 105.0 * q)) - 3.0 * q * (12.0 + q * (36.0 + q * 35.0)))
+            if ti.static(self.dim == 1)
+            else -a5 * a * (a * (5.5 + q * (38.5 + 66.0 * q)) - 3.5 * q * (5.5 + q * (19.25 + 22.0 * q)))
+        )
+
 
 @dataclass(frozen=True)
 class Gaussian(Kernel):
@@ -194,6 +233,10 @@ class Gaussian(Kernel):
     @ti.func
     def df(self, q):
         return -2.0 * q * self.f(q)
+
+    @ti.func
+    def ddf(self, q):
+        return (4.0 * q * q - 2.0) * self.f(q)
 
 
 KERNELS = (CubicSpline, QuinticSpline, WendlandC2, WendlandC4, WendlandC6, Gaussian)

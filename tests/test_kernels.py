@@ -161,3 +161,27 @@ def test_keeps_its_h_fact_when_the_dimension_is_set():
 def test_refuses_an_h_fact_without_sense_and_says_what_is_usual(h_fact):
     with pytest.raises(InputError, match=r"1\.0 to 2\.0 is usual"):
         CubicSpline(h_fact=h_fact)
+
+
+@every_kernel
+@every_dimension
+def test_bend_is_q_times_the_derivative_of_dh(kind, dim):
+    # what the density solver carries its sums to the next h with: a wrong second derivative would show as a wrong Omega
+    kernel, step = kind().at(dim), 1e-5
+    q = np.linspace(0.01, 0.97 * kernel.support, 400)
+    q = q[
+        np.abs(q[:, None] - np.array([1.0, 2.0])).min(axis=1) > 2 * step
+    ]  # the third derivative of splines jumps there
+
+    @ti.kernel
+    def fill(q: ti.types.ndarray(), bend: ti.types.ndarray()):
+        for n in range(q.shape[0]):
+            bend[n] = kernel.bend(q[n])
+
+    bend = np.empty_like(q)
+    fill(q, bend)
+    (_, _, high), (_, _, low) = evaluate(kernel, q + step), evaluate(kernel, q - step)
+    wrong = np.abs(q * (high - low) / (2 * step) - bend)
+    assert (
+        wrong.max() < 1e-7 * np.abs(bend).max()
+    )  # a central difference is off by step^2 = 1e-10 of the fourth derivative

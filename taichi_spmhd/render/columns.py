@@ -4,7 +4,10 @@ import numpy as np
 
 from ..errors import InputError
 from ..picture import Picture
+from .layout import is_profile
 from .panels import Panels
+
+CURVE = 801  # points of an exact curve
 
 
 def _member(sim, name: str) -> np.ndarray:
@@ -29,7 +32,11 @@ def _gaps(sim) -> np.ndarray:
 
 def values(sim, picture: Picture) -> np.ndarray:
     """What the picture shows of each particle, (N,): a scalar, a component, a magnitude, or h |div B| / |B|."""
-    member = _div_B(sim) if picture.member == "div_B" else _member(sim, picture.member)
+    return chosen(_div_B(sim) if picture.member == "div_B" else _member(sim, picture.member), picture)
+
+
+def chosen(member: np.ndarray, picture: Picture) -> np.ndarray:
+    """The component or magnitude of a member that the picture shows, (N,)."""
     if member.ndim == 1:
         if picture.axis is not None:
             raise InputError(f"Picture: {picture.member!r} is a scalar; leave out axis={picture.axis}")
@@ -41,10 +48,24 @@ def values(sim, picture: Picture) -> np.ndarray:
     return member[:, picture.axis]
 
 
+def exact_curve(sim, picture: Picture) -> np.ndarray | None:
+    """Points (M, 2) of the exact solution along the middle of the first axis, where the scene has one; else None."""
+    box, exact = sim.scene.box, getattr(sim.scene, "exact", None)
+    if exact is None or not is_profile(box):
+        return None
+    points = np.tile([0.5 * (lo + hi) for lo, hi in zip(box.lo, box.hi, strict=True)], (CURVE, 1))
+    points[:, 0] = np.linspace(box.lo[0], box.hi[0], CURVE)
+    solution = exact(points, sim.time)
+    if picture.member not in solution:
+        return None
+    return np.column_stack([points[:, 0], chosen(np.asarray(solution[picture.member]), picture)])
+
+
 def columns(sim, picture: Picture) -> dict:
-    """The arrays Panels.frame takes for one variant: x (N, d), values, h, spacing = (m/rho)^(1/d), gaps if shown."""
+    """The arrays Panels.frame takes: x (N, d), values, h, spacing = (m/rho)^(1/d); gaps and exact curve if any."""
     spacing = (_member(sim, "m") / _member(sim, "rho")) ** (1.0 / sim.dim)
     made = {"x": _member(sim, "x"), "values": values(sim, picture), "h": _member(sim, "h"), "spacing": spacing}
+    made["exact"] = exact_curve(sim, picture)
     return made | {"gaps": _gaps(sim)} if picture.gaps else made
 
 

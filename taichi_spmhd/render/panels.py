@@ -12,11 +12,11 @@ from . import text
 from .background import background
 from .colours import BACKGROUND, BROKEN, auto_limits, palette
 from .layout import LINE, TICKS, TITLE, arrange, is_profile
-from .pixels import draw, draw_profile
+from .pixels import draw, draw_curve, draw_profile
 
 TITLE_SIZE, LABEL_SIZE, SMALL_SIZE, COUNT_SIZE = 20, 17, 12, 15
 MOST_LINES = 3  # of small text
-DOT = (255, 196, 77)  # dots of 1-D plots
+DOT, CURVE = (255, 196, 77), (120, 190, 255)  # dots of 1-D plots, and the line of the exact solution
 
 
 class Panels:
@@ -103,7 +103,8 @@ class Panels:
         """The image of one panel."""
         x, picture = np.asarray(column["x"]), self.picture
         if is_profile(self.box):
-            return draw_profile(self.box, x, column["values"], size, self.limits, DOT, picture.log)
+            dots = draw_profile(self.box, x, column["values"], size, self.limits, DOT, picture.log)
+            return draw_curve(dots, self.box, column.get("exact"), self.limits, CURVE, picture.log)
         colours = palette(picture.colour_map(self.limits))
         return draw(
             picture.draw, self.box, x, column["values"], column["h"], size, colours, self.limits,

@@ -1,6 +1,7 @@
 """Particles into a picture: numpy in, uint8 RGB out. The work is done by the Taichi kernels of kernels.py."""
 
 import numpy as np
+from PIL import Image, ImageDraw
 
 from ..box import Box
 from ..errors import InputError
@@ -79,6 +80,18 @@ def draw_profile(box: Box, x, values, size, limits, colour, log=False) -> np.nda
     places = np.column_stack([right, down, np.zeros(len(right))])
     colours = np.broadcast_to(np.array(colour, np.uint8), (len(right), 3))
     return draw_discs(places, colours, np.full(len(right), DOT), size)
+
+
+def draw_curve(rgb, box: Box, points, limits, colour, log=False) -> np.ndarray:
+    """`rgb` with a line through points (M, 2) of (x, value) on it; None draws nothing."""
+    if points is None:
+        return rgb
+    height, width = rgb.shape[:2]
+    right = (points[:, 0] - box.lo[0]) * width / box.size[0]
+    down = (1 - fractions(points[:, 1], limits, log)) * height
+    image = Image.fromarray(rgb)
+    ImageDraw.Draw(image).line(list(zip(right.tolist(), down.tolist(), strict=True)), fill=colour, width=1)
+    return np.asarray(image)
 
 
 def draw(
