@@ -26,7 +26,7 @@ def scenes(nx: int = 32, beta: float = 0.2, amplitude: float = 0.1, t_end: float
         positions=close_packed(BOX, nx),
         start=lambda x: wave(x, 0.0),
         eos=Adiabatic(5 / 3),
-        terms=(Stress(), Induction(), Viscosity(alpha=0.2, beta=0.0), Resistivity()),
+        terms=(Stress(), Induction(), Viscosity(alpha=0.1, beta=0.0), Resistivity()),
         t_end=t_end,
         exact=wave,
         measure="B_z",

@@ -53,6 +53,10 @@ class RHS:
         Returns the longest stable step. Raises RunError where h cannot be found (a particle without neighbours).
         """
         self.neighbourhood()
+        return self.from_density(t, dt)
+
+    def from_density(self, t: float, dt: float) -> float:
+        """The rest of an evaluation, where density and h belong to the positions already."""
         self.close(t, dt)
         if self.keys["gather"]:
             self.gather(self.near.near, self.near.count, t, dt)

@@ -66,7 +66,7 @@ class Simulation:
         clock = time.perf_counter()
         self.rhs.neighbourhood()
         state.open_members(self)
-        self.longest = self.rhs.evaluate(self.time, 0.0)
+        self.longest = self.rhs.from_density(self.time, 0.0)
         self.ledger = Ledger.opened(self)
         self.seconds_compile += time.perf_counter() - clock
 

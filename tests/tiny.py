@@ -104,7 +104,8 @@ def contents(folder) -> dict:
         name = str(path.relative_to(folder))
         if path.suffix == ".npz":
             with np.load(path) as file:
-                found[name] = {key: file[key].tobytes() for key in file.files if not key.startswith("seconds")}
+                timing = ("seconds", "seconds_compile", "timed")
+                found[name] = {key: file[key].tobytes() for key in file.files if key not in timing}
         elif path.name == "summary.json":
             made = json.loads(path.read_text())
             drop = ("seconds", "seconds_compile", "updates_per_s")

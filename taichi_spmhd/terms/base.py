@@ -63,7 +63,10 @@ class Part:
 
 def shown(value) -> str:
     """A parameter as a reader wants it: four digits are enough."""
-    return f"{value:.4g}" if isinstance(value, float) else repr(value)
+    if not isinstance(value, float):
+        return repr(value)
+    text = f"{value:.4g}"
+    return text if set(text) & set(".en") else f"{text}.0"
 
 
 class Term(Part):
