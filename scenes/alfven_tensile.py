@@ -27,6 +27,7 @@ def scenes(nx: int = 32, beta: float = 0.2, amplitude: float = 0.1, t_end: float
             x, t, exact.direction(ANGLE), amplitude, pressure=0.5 * beta * B_PARALLEL**2, B_parallel=B_PARALLEL
         )
 
+    colours = 1.2 * abs(amplitude) or 0.1
     bare = Scene(
         box=BOX,
         positions=jitter(hexagonal(BOX, nx), BOX, NOISE, seed=0),
@@ -36,7 +37,7 @@ def scenes(nx: int = 32, beta: float = 0.2, amplitude: float = 0.1, t_end: float
         t_end=t_end,
         exact=wave,
         measure="B_z",
-        picture=Picture("B", axis=2, limits=(-1.2 * amplitude, 1.2 * amplitude), draw="particles", gaps=True),
+        picture=Picture("B", axis=2, limits=(-colours, colours), draw="particles", gaps=True),
     )
     return {
         "xi = 0": bare,

@@ -16,6 +16,7 @@ BOX = (1.0,)
 
 def scenes(nx: int = 64, amplitude: float = 1e-4, t_end: float = 1.0):
     """nx: particles a wavelength."""
+    colours = 1.2 * abs(amplitude) or 1e-4
     scene = Scene(
         box=BOX,
         positions=displaced(line(BOX, nx), BOX, lambda x: 1 + amplitude * np.sin(2 * np.pi * x)),
@@ -28,6 +29,6 @@ def scenes(nx: int = 64, amplitude: float = 1e-4, t_end: float = 1.0):
         t_end=t_end,
         exact=lambda x, t: exact.sound_wave(x, t, amplitude),
         measure="v_x",
-        picture=Picture("v", axis=0, limits=(-1.2 * amplitude, 1.2 * amplitude)),
+        picture=Picture("v", axis=0, limits=(-colours, colours)),
     )
     return {"sound wave": scene}

@@ -76,6 +76,11 @@ class Boundary:
         ]
         return [image for image in product(*walls) if any(image)]
 
+    def room(self, axis: int, size: float) -> float:
+        """The widest support an axis has room for: half of it if periodic, all of it between two walls; else 0."""
+        walls = sum(isinstance(side, Reflecting) for side in self.sides[axis])
+        return 0.5 * size if self.periodic[axis] else size if walls == 2 else 0.0
+
     @property
     def frozen(self) -> list[tuple[int, int, float]]:
         """(axis, LOWER or UPPER, width) of the frozen ends."""

@@ -38,6 +38,8 @@ def as_box(spec: "Box | Sequence") -> Box:
     """
     if isinstance(spec, Box):
         return spec
+    if not isinstance(spec, Sequence) and not hasattr(spec, "__len__"):
+        raise InputError(f"box {spec!r}: give a length or (lower, upper) per axis, for example (1.0, 2.0)")
     axes = [(0.0, axis) if isinstance(axis, Real) else tuple(axis) for axis in spec]
     if not 1 <= len(axes) <= 3 or any(len(axis) != 2 or not axis[1] > axis[0] for axis in axes):
         raise InputError(f"box {spec!r}: give 1 to 3 positive lengths or (lower, upper) intervals")

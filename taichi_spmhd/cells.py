@@ -6,6 +6,7 @@ Axes without a period follow the particles.
 
 import numpy as np
 
+from .errors import RunError
 from .particles import Particles
 from .runtime import ti
 
@@ -100,11 +101,14 @@ class Cells:
         """Cells for the noted positions; `reach_per_h` times the largest h0 is the width a cell must have."""
         span = np.array([np.inf] * 3 + [-np.inf] * 3 + [0.0]).astype(self.p.word)
         self.extent(span)
-        self.widest = float(span[6])
+        self.widest, self.longest, self.span = float(span[6]), 0.0, span
+        if not np.isfinite(span[[*range(self.dim), *range(3, 3 + self.dim), 6]]).all():
+            raise RunError("cells: a position or smoothing length is not finite")
         reach = reach_per_h * self.widest * (1 + 1e-5)
         for a in range(self.dim):
             lo, size = (self.lo[a], self.size[a]) if self.periodic[a] else (span[a], span[3 + a] - span[a])
             self.grid[:, a] = lo, size
+            self.longest = max(self.longest, float(size))
             self.shape[a] = max(1, min(int(size / reach), 2**20))
         crowd = max(1.0, float(self.shape.astype(float).prod()) / (4 * self.p.n + 64)) ** (1 / self.dim)
         self.shape = np.maximum(self.shape / crowd, 1).astype(np.int32)

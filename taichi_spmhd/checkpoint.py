@@ -53,6 +53,7 @@ def content(sim) -> dict[str, np.ndarray]:
     ledger = sim.ledger
     out = {"format": FORMAT, "precision": WORDS[table.itemsize], "columns": columns(sim), "table": table, "ids": ids}
     out.update({name: getattr(sim, name) for name in NUMBERS + COUNTS})
+    out["scene"] = sim.scene.sketch()
     out.update({"E0": ledger.E0, "p0": ledger.p0, "v_rms": ledger.v_rms})
     out.update(sim.neighbours.story())
     out.update({f"rate_{name}": rate for name, rate in sim.particles.rates().items()})
@@ -111,6 +112,10 @@ def admit(sim, path, saved: dict) -> None:
     if str(saved["precision"]) != runs:
         raise InputError(
             f"{path}: saved in {saved['precision']}, this process runs {runs}; add --precision {saved['precision']}"
+        )
+    if str(saved.get("scene")) != sim.scene.sketch():
+        raise InputError(
+            f"{path}: saved by another scene, {saved.get('scene')}; give the scene and parameters the run had"
         )
     try:
         rates = {name: saved[f"rate_{name}"] for name in p.names}

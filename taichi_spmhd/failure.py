@@ -8,7 +8,7 @@ from .errors import RunError
 def fail(sim, what: str) -> None:
     """Raises RunError with the particle, the place, the term with the largest share in its rates, and the time."""
     table, ids = sim.particles.table()
-    memory, name = worst(sim, table)
+    memory, name = (sim.ill - 1, spoilt(sim, table, sim.ill - 1)) if sim.ill else fastest(sim)
     columns = {name: table[:, first : first + kind] for name, kind, first in sim.particles.layout}
     place = ", ".join(f"{c:.4g}" for c in columns["x"][memory])
     term = loudest(sim, memory)
@@ -18,26 +18,28 @@ def fail(sim, what: str) -> None:
     )
 
 
-def worst(sim, table: np.ndarray) -> tuple[int, str]:
-    """The particle (in memory order) and the member that are ill, else those with the shortest step."""
+def spoilt(sim, table: np.ndarray, memory: int) -> str:
+    """The evolved member of a particle (at its place in memory) that is not finite, or u where all are."""
     rates = sim.particles.rates()
-    for name, kind, first in sim.particles.layout:
-        values = table[:, first : first + kind]
-        bad = ~np.isfinite(values).all(axis=1)
-        if name == "u":
-            bad |= values[:, 0] <= 0
-        if name in rates:
-            bad |= ~np.isfinite(rates[name]).reshape(len(table), -1).all(axis=1)
-            if bad.any():
-                return int(np.argmax(bad)), name
-    return int(np.argmax(np.abs(rates["v"]).sum(axis=1))), "v"
+    first = {name: first for name, _, first in sim.particles.layout}
+    ill = [
+        name
+        for name, values in rates.items()
+        if not (np.isfinite(values[memory]).all() and np.isfinite(table[memory, first[name]]))
+    ]
+    return ill[0] if ill else "u" if "u" in rates else "v"
+
+
+def fastest(sim) -> tuple[int, str]:
+    """The particle (its place in memory) with the largest acceleration."""
+    return int(np.argmax(np.abs(sim.particles.rates()["v"]).sum(axis=1))), "v"
 
 
 def loudest(sim, memory: int) -> str:
     """The term whose contribution to this particle's rates is not finite, or the largest."""
     shares = {}
     for term in sim.rhs.parts:
-        if term.has("pair") or term.has("local"):
+        if term.has("pair") or term.has("local") or term.has("after"):
             out = np.zeros(1, sim.particles.word)
             sim.rhs.share(term, memory, sim.time + sim.dt, sim.dt, sim.neighbours.near, sim.neighbours.count, out)
             shares[type(term).__name__] = np.inf if not np.isfinite(out[0]) else float(out[0])

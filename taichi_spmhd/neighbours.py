@@ -11,6 +11,7 @@ more. Rows end with index n (nobody, without mass) up to a whole number of vecto
 
 import numpy as np
 
+from .boundary import LOWER, UPPER
 from .errors import RunError
 from .particles import Particles
 from .runtime import ti
@@ -27,7 +28,8 @@ class Neighbours(Search):
     def __init__(self, particles: Particles, box, boundary, kernel):
         super().__init__(particles, box, boundary, kernel.support, kernel.neighbours * PADS[0] ** particles.dim)
         self.kernel = kernel
-        self.half = 0.5 * min((box.size[a] for a in range(self.dim) if self.periodic[a]), default=1e30)
+        self.walls = [{image[a] for image in boundary.images} for a in range(3)]
+        self.half = min((room for a in range(self.dim) if (room := boundary.room(a, box.size[a]))), default=1e30)
         self.builds, self.age, self.pad, self.moved = 0, 0, PADS[0], 0.0  # age: evaluations since the build
 
     def build(self) -> None:
@@ -41,11 +43,15 @@ class Neighbours(Search):
         self.builds, self.age = self.builds + 1, 0
 
     def fits(self) -> None:
-        """Raises RunError when a pair would meet twice, once through the period: only the nearest image is summed."""
+        """Raises RunError when a pair would meet twice, once through the period or a wall: one image is summed."""
+        for a in range(self.dim):
+            low, high = self.cells.span[a], self.cells.span[3 + a]
+            if (LOWER in self.walls[a] and low < self.lo[a]) or (UPPER in self.walls[a] and high > self.hi[a]):
+                raise RunError(f"boundary: a particle has passed the reflecting wall along {'xyz'[a]}; add Viscosity()")
         reach = self.support * self.cells.widest
         if reach > self.half * (1 + 1e-6):
             raise RunError(
-                f"density: a kernel support of radius {reach:.3g} has outgrown half the box ({self.half:.3g}); "
+                f"density: a kernel support of radius {reach:.3g} has outgrown the box, which has room for {self.half:.3g}; "
                 "raise nx, widen the box or take a smaller kernel"
             )
 

@@ -68,11 +68,13 @@ class RHS:
             self.near.build()
         self.near.age += 1
         for _ in range(MOST_BUILDS):
-            self.density.solve(self.near.near, self.near.count)
-            if self.near.holds():
+            unresolved = self.density.solve(self.near.near, self.near.count)
+            if self.near.holds() and not unresolved:
                 return
             self.near.build()
-        raise RunError("density: a smoothing length grows without end; a particle has lost all its neighbours")
+        raise RunError(
+            "density: no smoothing length fits; a particle has lost all its neighbours, or two are on one spot"
+        )
 
     @ti.func
     def apply(self, n, part: ti.template()):
@@ -97,6 +99,11 @@ class RHS:
             for part in ti.static(self.keys["close"]):
                 now = ti.Struct(t=t, dt=dt)
                 self.apply(n, part.close(self.p.state[n], now))
+        for _ in range(
+            1
+        ):  # nobody, who fills the rows, is particle 0 without mass: no term finds a member it cannot use
+            self.p.state[self.p.n] = self.p.state[0]
+            self.p.state[self.p.n].m = 0.0
 
     @ti.kernel
     def settle(self, t: float, dt: float):

@@ -14,8 +14,8 @@ from .eos import Adiabatic, Isothermal
 from .errors import InputError
 from .kernels import CubicSpline, Kernel
 from .picture import Picture
-from .stepper import LeapfrogKDK
-from .terms import Part, Term
+from .stepper import LeapfrogKDK, Stepper
+from .terms import Choice, Part, Term
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,7 +25,8 @@ class Scene:
     box: lengths or intervals per axis; positions: (N, d); start(x) -> {"rho", "v", "P" or "u", "B", "psi", "mass"},
     arrays (N,) or (N, 3) or numbers; terms: the effects; eos, kernel, density, energy, stepper, boundary: one choice
     each. exact(x, t) -> {member: array}: the solution where there is one, `measure` the member whose error is quoted;
-    reference: path of a stored map. Without "mass" the mass is rho times volume / N.
+    reference: path of a stored map, kept with the scene (no command reads it yet). Without "mass" the mass is rho
+    times volume / N.
     """
 
     box: Box
@@ -45,8 +46,9 @@ class Scene:
     measure: str | None = None
 
     def __post_init__(self):
+        check_kinds(self)
         object.__setattr__(self, "box", as_box(self.box))
-        x = np.ascontiguousarray(self.positions, dtype=float)
+        x = numbers(self.positions)
         object.__setattr__(self, "positions", x[:, None] if x.ndim == 1 else x)
         object.__setattr__(self, "terms", tuple(self.terms))
         check(self)
@@ -60,6 +62,11 @@ class Scene:
         """Choices that take part in an evaluation, then the terms, in an order in which every need is made before."""
         energy = () if isinstance(self.eos, Isothermal) else (self.energy,)
         return in_order((*energy, self.eos, *self.terms))
+
+    def sketch(self) -> str:
+        """Terms, choices and box in one line: what a saved state must agree with."""
+        choices = (self.kernel, self.density, self.stepper, self.boundary)
+        return "; ".join([*(str(part) for part in self.parts), *(repr(choice) for choice in choices), repr(self.box)])
 
     def plus(self, *terms: Term) -> "Scene":
         """The same scene with more terms."""
@@ -88,6 +95,45 @@ def in_order(parts: tuple) -> tuple:
     return tuple(done)
 
 
+KINDS = {
+    "eos": Choice,
+    "density": SumMass,
+    "energy": Thermal,
+    "stepper": Stepper,
+    "kernel": Kernel,
+    "boundary": Boundary,
+}
+
+
+def check_kinds(scene: Scene) -> None:
+    """Choices are instances of their kind, terms a tuple, start a function."""
+    for name, kind in KINDS.items():
+        if not isinstance(getattr(scene, name), kind):
+            raise InputError(
+                f"Scene: {name} = {getattr(scene, name)!r}; give an instance, for example {EXAMPLES[name]}"
+            )
+    if isinstance(scene.terms, Part) or not isinstance(scene.terms, tuple | list):
+        raise InputError(f"Scene: terms = {scene.terms!r}; give a tuple, for example (Pressure(), Viscosity())")
+    if not callable(scene.start):
+        raise InputError("Scene: start must be a function of the positions that returns a dict")
+
+
+def numbers(positions) -> np.ndarray:
+    """Positions as an array of floats."""
+    try:
+        return np.ascontiguousarray(positions, dtype=float)
+    except (TypeError, ValueError) as error:
+        raise InputError("Scene: positions must be an array of numbers (N, d)") from error
+
+
+EXAMPLES = {
+    "eos": "Adiabatic(5 / 3)",
+    "density": "SumMass()",
+    "energy": "Thermal()",
+    "stepper": "LeapfrogKDK()",
+    "kernel": "CubicSpline()",
+    "boundary": "Boundary(x=Periodic())",
+}
 GIVEN = {"x", "v", "m", "h", "rho", "Omega"}  # members every particle has
 CURES = {
     "B": "list Induction() (Stress and everything magnetic need an evolved field)",
@@ -104,8 +150,8 @@ def check(scene: Scene) -> None:
         )
     if len(scene.positions) == 0:
         raise InputError("positions: there are no particles; raise nx")
-    if not scene.t_end >= 0:
-        raise InputError(f"t_end = {scene.t_end} must not be negative")
+    if not 0 <= scene.t_end < 1e15:
+        raise InputError(f"t_end = {scene.t_end} must be a time of at least 0")
     for term in scene.terms:
         if not isinstance(term, Part):
             raise InputError(f"terms: {term!r} is not a term; give instances, for example Stress()")
@@ -113,6 +159,10 @@ def check(scene: Scene) -> None:
     twice = {name for name in names if names.count(name) > 1}
     if twice:
         raise InputError(f"terms: {', '.join(sorted(twice))} listed twice; each effect once")
+    for one in scene.terms:
+        for other in scene.terms:
+            if one is not other and isinstance(one, type(other)):
+                raise InputError(f"terms: {type(one).__name__} is a {type(other).__name__} already; list one of them")
     check_members(scene)
 
 

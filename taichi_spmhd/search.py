@@ -9,11 +9,13 @@ import numpy as np
 
 from .boundary import LOWER
 from .cells import Cells
+from .errors import RunError
 from .particles import Particles
 from .runtime import ti
 
 BLOCK = 32  # candidates tested together
 LANES = 8  # rows are filled up to a multiple of this
+MOST_BYTES = 8e9  # of a list
 IMAGE = 26  # bits of an entry that hold the particle; above them, per axis, which wall it is mirrored at
 
 
@@ -38,14 +40,15 @@ class Search:
         self.at = ti.ndarray(ti.f32, (self.dim + 1, n + BLOCK))  # compact copies of x0 and of the squared radius
         self.bit = ti.ndarray(ti.i32, BLOCK)
         self.bit.from_numpy((np.uint32(1) << np.arange(BLOCK, dtype=np.uint32)).view(np.int32))
-        self.roundoff = 4e-7 * max(box.size)  # of the compact copies
 
     @ti.kernel
-    def compact(self, at: ti.types.ndarray(dtype=ti.f32, ndim=2), pad: float):
+    def compact(
+        self, at: ti.types.ndarray(dtype=ti.f32, ndim=2), pad: float, grid: ti.types.ndarray(ndim=2), roundoff: float
+    ):
         for n in range(self.p.n):
             for a in ti.static(range(self.dim)):
-                at[a, n] = ti.cast(self.p.state[n].x0[a] - self.lo[a], ti.f32)
-            at[self.dim, n] = ti.cast((self.support * pad * self.p.state[n].h0 + self.roundoff) ** 2, ti.f32)
+                at[a, n] = ti.cast(self.p.state[n].x0[a] - grid[0, a], ti.f32)
+            at[self.dim, n] = ti.cast((self.support * pad * self.p.state[n].h0 + roundoff) ** 2, ti.f32)
 
     @ti.func
     def separation(self, here, other, a: ti.template(), narrow: ti.template()):
@@ -166,13 +169,18 @@ class Search:
             if ti.static(image[a] != 0):
                 wall = self.lo[a] if ti.static(image[a] == LOWER) else self.hi[a]
                 x[a] = 2.0 * wall - x[a]
-                there[a] = ti.cast(x[a] - self.lo[a], ti.f32)
+                there[a] = ti.cast(x[a] - grid[0, a], ti.f32)
         return self.around(n, there, self.cells.cell(x, grid, shape), code, found, shape, first, near, at, bit, narrow)
 
     def list(self, pad: float) -> None:
         """Rows for the noted positions in the present memory order; widened until no neighbour is dropped."""
-        self.compact(self.at, pad)
+        self.compact(self.at, pad, self.cells.grid.astype(self.p.word), 4e-7 * self.cells.longest)
         most = self.fill_rows()
+        if most > self.width and 4.0 * self.p.n * most > MOST_BYTES:
+            raise RunError(
+                f"neighbours: a particle has {most} of them, a list of {4e-9 * self.p.n * most:.0f} GB; "
+                "one has strayed far from all others, or smoothing lengths differ too much"
+            )
         if most > self.width:
             self.width = LANES * int(np.ceil(1.25 * most / LANES))
             self.near = ti.ndarray(ti.i32, (self.p.n, self.width))

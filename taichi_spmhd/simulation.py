@@ -7,6 +7,7 @@ import numpy as np
 
 from . import runtime, state
 from .density import Density
+from .errors import InputError, RunError
 from .failure import fail
 from .lanes import best as lanes
 from .neighbours import Neighbours
@@ -33,10 +34,15 @@ class Simulation:
         self.scene, self.dim = scene, scene.dim
         self.time, self.steps, self.floors, self.ill = 0.0, 0, 0, 0
         self.seconds, self.seconds_compile, self.dt, self.longest = 0.0, 0.0, 0.0, 0.0
+        self.begun = False
         self.timed, self.warm, self.ledger = 0, False, None  # steps whose seconds count; kernels compiled
         values = start if start is not None else state.opening(scene)
-        self._build(scene, len(values["m"]))
-        state.fill(self, values)
+        try:
+            self._build(scene, len(values["m"]))
+            state.fill(self, values)
+        except BaseException:
+            self.close()
+            raise
 
     def _build(self, scene: Scene, n: int) -> None:
         kernel = scene.kernel.at(self.dim)
@@ -59,12 +65,16 @@ class Simulation:
 
     def begin(self) -> None:
         """The first evaluation: density, evolved members from the primitive ones, rates. Done by itself when needed."""
-        if self.longest:
+        if self.begun:
             return
+        self.begun = True
         from .diagnostics.ledger import Ledger
 
         clock = time.perf_counter()
-        self.rhs.neighbourhood()
+        try:
+            self.rhs.neighbourhood()
+        except RunError as error:  # nothing has moved yet: it is the start that does not fit
+            raise InputError(str(error)) from error
         state.open_members(self)
         self.longest = self.rhs.from_density(self.time, 0.0)
         self.ledger = Ledger.opened(self)
@@ -74,8 +84,8 @@ class Simulation:
         """One time step, the longest stable one unless dt is given."""
         self.begin()
         dt = self.longest if dt is None else dt
-        if not dt > SMALLEST_STEP * max(self.scene.t_end, 1e-30) or self.time + dt == self.time:
-            fail(self, f"the time step collapsed to {dt:.3g}")
+        if not self.longest > SMALLEST_STEP * self.scene.t_end or not dt > 0 or self.time + dt == self.time:
+            fail(self, f"the time step collapsed to {min(dt, self.longest):.3g}")
         clock = time.perf_counter()
         self.dt = dt
         self.longest = self.scene.stepper.step(self, dt)
@@ -163,7 +173,8 @@ class Simulation:
 
     def close(self) -> None:
         """Give the device memory back."""
-        self.particles.close()
+        if hasattr(self, "particles"):
+            self.particles.close()
 
     def __enter__(self) -> "Simulation":
         return self

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from .boundary import LOWER
+from . import runtime
+from .boundary import LOWER, Reflecting
 from .eos import Isothermal
 from .errors import InputError
 
@@ -14,11 +15,14 @@ def opening(scene) -> dict[str, np.ndarray]:
     """What the scene's start(x) says, as full arrays: x, m, rho, v, P or u, B, psi. Raises InputError."""
     x = scene.positions
     given = scene.start(x)
+    if not isinstance(given, dict):
+        raise InputError(f"start: returned {type(given).__name__}; it must return a dict of rho, v, P, ...")
     for name in given:
         if name not in KNOWN:
             raise InputError(f"start: unknown quantity {name!r}; it may give {', '.join(KNOWN)}")
     if "rho" not in given and "mass" not in given:
         raise InputError("start: give rho (or mass)")
+    check_used(scene, given)
     values = {name: broad(name, value, len(x)) for name, value in given.items()}
     volume = scene.box.volume / len(x)
     values["m"] = values.pop("mass") if "mass" in values else values["rho"] * volume
@@ -30,7 +34,37 @@ def opening(scene) -> dict[str, np.ndarray]:
     if not isinstance(scene.eos, Isothermal) and not {"P", "u"} & set(values):
         raise InputError("start: give the pressure P (or the thermal energy u)")
     check_start(x, values)
+    check_walls(scene)
+    word = np.float32 if runtime.started().get("precision") == "f32" else float
+    check_apart(x.astype(word), scene.box, scene.boundary.periodic)
     return {"x": x, **values}
+
+
+def check_used(scene, given: dict) -> None:
+    """Everything the start gives must be of use: what would be ignored is a misunderstanding."""
+    read = {name for part in scene.parts for name in (*part.reads, *part.makes)}
+    if "P" in given and "u" in given:
+        raise InputError("start: P and u both given; give one of them")
+    if isinstance(scene.eos, Isothermal) and {"P", "u"} & set(given):
+        raise InputError("start: an Isothermal gas has its pressure from rho alone; leave out P and u")
+    if "B" in given and "B" not in read:
+        raise InputError("start: B given, but no term reads it; list Stress() and Induction(), or leave out B")
+    if "psi" in given and "psi" not in read:
+        raise InputError("start: psi given, but Cleaning is not listed; list Cleaning() or leave out psi")
+
+
+def check_walls(scene) -> None:
+    """No particle starts behind a reflecting wall."""
+    for a, sides in enumerate(scene.boundary.sides[: scene.dim]):
+        x = scene.positions[:, a]
+        outside = np.zeros(len(x), bool)
+        if isinstance(sides[0], Reflecting):
+            outside |= x < scene.box.lo[a]
+        if isinstance(sides[1], Reflecting):
+            outside |= x > scene.box.hi[a]
+        if outside.any():
+            k = int(np.argmax(outside))
+            raise InputError(f"positions: particle {k} at {x[k]:.4g} along {'xyz'[a]} starts behind a reflecting wall")
 
 
 def broad(name: str, value, n: int) -> np.ndarray:
@@ -84,7 +118,6 @@ def check_apart(x: np.ndarray, box, periodic: tuple) -> None:
 def fill(sim, values: dict) -> None:
     """Write the start into the particles: records in the caller's order, h from the density the scene gives."""
     p, scene, kernel = sim.particles, sim.scene, sim.neighbours.kernel
-    check_apart(values["x"], scene.box, scene.boundary.periodic)
     h = kernel.h_fact * (values["m"] / values["rho"]) ** (1 / sim.dim)
     own = {**values, "h": h, "hinv": 1 / h, "h0": h, "x0": values["x"], "held": held(scene, values["x"])}
     table = np.zeros((p.n, p.width), p.word)

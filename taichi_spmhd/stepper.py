@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from .errors import InputError
 from .pairs import Pairs
 from .runtime import ti
 from .terms.base import Choice
@@ -61,16 +62,21 @@ class Advance:
 
     @ti.kernel
     def correct(self, dt: float) -> ti.i32:
-        """q += dt/2 (new rate - old rate); returns whether any particle is ill."""
+        """q += dt/2 (new rate - old rate); returns 1 + the place of an ill particle, 0 for none.
+
+        An ill value is not written: what is left tells which term spoilt it.
+        """
         found = 0
         for n in range(self.p.n):
             s, new, old = self.p.state[n], self.p.rate[n], self.p.old[n]
             half, ill = 0.5 * dt * self.free(s), 0
             for key in ti.static(new.keys):
                 value = s[key] + half * (new[key] - old[key])
-                self.p.state.get_member_field(key)[n] = value
-                ill |= self.ill(value, key)
-            ti.atomic_or(found, ill)
+                if self.ill(value, key):
+                    ill = n + 1
+                else:
+                    self.p.state.get_member_field(key)[n] = value
+            ti.atomic_max(found, ill)
         return found
 
     @ti.kernel
@@ -85,9 +91,11 @@ class Advance:
                 self.p.state[n].x[c] = s.x[c] + a * back[c] + b * dt * s.v[c]
             for key in ti.static(r.keys):
                 value = a * start[key] + b * (s[key] + dt * free * r[key])
-                self.p.state.get_member_field(key)[n] = value
-                ill |= self.ill(value, key)
-            ti.atomic_or(found, ill)
+                if self.ill(value, key):
+                    ill = n + 1
+                else:
+                    self.p.state.get_member_field(key)[n] = value
+            ti.atomic_max(found, ill)
         return found
 
     @ti.kernel
@@ -100,6 +108,10 @@ class Advance:
 
 class Stepper(Choice):
     """What steppers share: the safety factors of the time step, C_cour h / v_sig and C_force sqrt(h/|a|)."""
+
+    def __post_init__(self):
+        if not (0 < self.cour <= 1 and 0 < self.force <= 1):
+            raise InputError(f"{type(self).__name__}: cour = {self.cour} and force = {self.force} must lie in (0, 1]")
 
     def prepare(self, particles) -> object:
         """Extra fields, placed before the memory is allocated."""
@@ -126,7 +138,7 @@ class LeapfrogKDK(Stepper):
 
 
 class RungeKutta(Stepper):
-    """y <- a y0 + b (y + dt f(y)) for each stage (a, b)."""
+    """y <- a y0 + b (y + dt f(y)), which then belongs to t + c dt, for each stage (a, b, c)."""
 
     stages: tuple = ()
 
@@ -139,11 +151,11 @@ class RungeKutta(Stepper):
     def step(self, sim, dt: float) -> float:
         """One step; returns the longest next one."""
         sim.advance.save(sim.saved)
-        for a, b in self.stages:
+        for a, b, c in self.stages:
             sim.ill = sim.advance.combine(sim.saved, a, b, dt)
             if sim.ill:
                 return 0.0
-            longest = sim.rhs.evaluate(sim.time + dt, dt)
+            longest = sim.rhs.evaluate(sim.time + c * dt, dt)
         return longest
 
 
@@ -153,7 +165,7 @@ class Heun(RungeKutta):
 
     cour: float = 0.3
     force: float = 0.25
-    stages = ((0.0, 1.0), (0.5, 0.5))
+    stages = ((0.0, 1.0, 1.0), (0.5, 0.5, 1.0))
 
 
 @dataclass(frozen=True)
@@ -162,4 +174,4 @@ class SSPRK3(RungeKutta):
 
     cour: float = 0.3
     force: float = 0.25
-    stages = ((0.0, 1.0), (0.75, 0.25), (1 / 3, 2 / 3))
+    stages = ((0.0, 1.0, 1.0), (0.75, 0.25, 0.5), (1 / 3, 2 / 3, 1.0))

@@ -73,7 +73,8 @@ def dark(image) -> float:
 
 
 def test_the_frame_has_dark_gaps_at_xi_0_and_none_at_xi_half(alfven):
-    # discs of 0.57 spacings cover all but the corners of a hexagonal cell; sheets leave broad stripes. Measured 0.31 and 0.006
+    # discs of 0.57 spacings cover all but the corners of a hexagonal cell; sheets leave broad stripes. Measured 0.31
+    # and 0.006
     assert dark(alfven["xi = 0"][1]) > 0.2
     assert dark(alfven["xi = 1/2"][1]) < 0.03
     assert dark(alfven["xi = 1"][1]) < 0.03

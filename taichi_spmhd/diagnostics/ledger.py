@@ -66,7 +66,8 @@ def predicted(sim, columns: dict | None = None) -> tuple[float, np.ndarray]:
     c = columns or sim.columns()
     if "leak_E" not in c:
         return 0.0, np.zeros(3)
-    return total(c, c["leak_E"]), (c["m"].astype(float)[:, None] * c["leak_v"]).sum(axis=0)
+    kick = (c["m"].astype(float)[:, None] * c["leak_v"]).sum(axis=0) if "leak_v" in c else np.zeros(3)
+    return total(c, c["leak_E"]), kick
 
 
 def speed(columns: dict) -> float:

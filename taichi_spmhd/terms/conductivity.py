@@ -19,8 +19,8 @@ class Conductivity(Term):
     reads, evolves = {"P": real, "rho": real, "u": real}, {}
 
     def __post_init__(self):
-        if self.alpha < 0:
-            raise InputError(f"Conductivity: alpha = {self.alpha} must not be negative")
+        if not 0 <= self.alpha < 100:
+            raise InputError(f"Conductivity: alpha = {self.alpha} must lie in 0..100")
 
     @ti.func
     def pair(self, i, j, w, now):

@@ -2,7 +2,7 @@ from dataclasses import dataclass
 
 from ..errors import InputError
 from ..runtime import ti
-from ..types import vec3
+from ..types import real, vec3
 from .base import Term
 
 
@@ -18,11 +18,11 @@ class Resistivity(Term):
     """
 
     alpha: float = 1.0
-    reads, evolves = {"B": vec3, "v": vec3}, {"b": vec3}
+    reads, evolves = {"B": vec3, "v": vec3, "vw": real}, {"b": vec3}
 
     def __post_init__(self):
-        if self.alpha < 0:
-            raise InputError(f"Resistivity: alpha = {self.alpha} must not be negative")
+        if not 0 <= self.alpha < 100:
+            raise InputError(f"Resistivity: alpha = {self.alpha} must lie in 0..100")
 
     @ti.func
     def pair(self, i, j, w, now):
@@ -30,3 +30,8 @@ class Resistivity(Term):
         dB = i.B - j.B
         rate = 0.5 * self.alpha * v_B * (w.Gi + w.Gj) * dB
         return ti.Struct(b=rate, u=-0.5 * rate.dot(dB))
+
+    @ti.func
+    def speed(self, i, j, w, now):
+        """The diffusion over a neighbour's distance is stable at the Courant step of vw + alpha v_B."""
+        return ti.max(i.vw, j.vw) + self.alpha * (i.v - j.v).cross(w.e).norm()

@@ -39,11 +39,13 @@ class CullenDehnen(Viscosity):
         """Jump: no decay here, so that evaluating twice changes nothing."""
         closing = ti.max(-sums.div_v, 0.0) ** 2
         shear = closing / (closing + sums.curl_v.dot(sums.curl_v) + 1e-30)
-        onset = 0.0
+        onset, before = 0.0, i.div_v_before
         if now.dt > 0.0:
-            onset = shear * ti.max((i.div_v_before - sums.div_v) / now.dt, 0.0)
+            onset = shear * ti.max((before - sums.div_v) / now.dt, 0.0)
+        else:
+            before = sums.div_v  # at the start there is no step to take the difference over
         wanted = ti.min(10.0 * i.h * i.h * onset / (i.cs * i.cs + 1e-30), self.alpha)
-        return ti.Struct(alpha=ti.max(i.alpha, wanted), div_v=sums.div_v)
+        return ti.Struct(alpha=ti.max(i.alpha, wanted), div_v=sums.div_v, div_v_before=before)
 
     @ti.func
     def settle(self, i, now):

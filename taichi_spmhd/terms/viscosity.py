@@ -21,8 +21,8 @@ class Viscosity(Term):
     reads, evolves = {"vw": real, "rho": real, "v": vec3}, {"v": vec3}
 
     def __post_init__(self):
-        if self.alpha < 0 or self.beta < 0:
-            raise InputError(f"Viscosity: alpha = {self.alpha} and beta = {self.beta} must not be negative")
+        if not (0 <= self.alpha < 100 and 0 <= self.beta < 100):
+            raise InputError(f"Viscosity: alpha = {self.alpha} and beta = {self.beta} must lie in 0..100")
 
     @ti.func
     def strength(self, s):
