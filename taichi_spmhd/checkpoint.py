@@ -77,6 +77,7 @@ def load(cls, path, scene):
     sim = cls(scene)
     try:
         admit(sim, path, saved)
+        sim.begun = True
     except BaseException:
         sim.close()
         raise

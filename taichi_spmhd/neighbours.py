@@ -51,7 +51,7 @@ class Neighbours(Search):
         reach = self.support * self.cells.widest
         if reach > self.half * (1 + 1e-6):
             raise RunError(
-                f"density: a kernel support of radius {reach:.3g} has outgrown the box, which has room for {self.half:.3g}; "
+                f"density: a kernel support of radius {reach:.3g} has outgrown the box (room: {self.half:.3g}); "
                 "raise nx, widen the box or take a smaller kernel"
             )
 

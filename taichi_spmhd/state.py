@@ -22,7 +22,6 @@ def opening(scene) -> dict[str, np.ndarray]:
             raise InputError(f"start: unknown quantity {name!r}; it may give {', '.join(KNOWN)}")
     if "rho" not in given and "mass" not in given:
         raise InputError("start: give rho (or mass)")
-    check_used(scene, given)
     values = {name: broad(name, value, len(x)) for name, value in given.items()}
     volume = scene.box.volume / len(x)
     values["m"] = values.pop("mass") if "mass" in values else values["rho"] * volume
@@ -34,6 +33,7 @@ def opening(scene) -> dict[str, np.ndarray]:
     if not isinstance(scene.eos, Isothermal) and not {"P", "u"} & set(values):
         raise InputError("start: give the pressure P (or the thermal energy u)")
     check_start(x, values)
+    check_used(scene, given)
     check_walls(scene)
     word = np.float32 if runtime.started().get("precision") == "f32" else float
     check_apart(x.astype(word), scene.box, scene.boundary.periodic)
@@ -49,8 +49,6 @@ def check_used(scene, given: dict) -> None:
         raise InputError("start: an Isothermal gas has its pressure from rho alone; leave out P and u")
     if "B" in given and "B" not in read:
         raise InputError("start: B given, but no term reads it; list Stress() and Induction(), or leave out B")
-    if "psi" in given and "psi" not in read:
-        raise InputError("start: psi given, but Cleaning is not listed; list Cleaning() or leave out psi")
 
 
 def check_walls(scene) -> None:

@@ -36,13 +36,17 @@ def chaos(x):
 
 
 def disordered_scene(*terms, **changes) -> Scene:
-    """500 particles 0.2 spacings off a square lattice, cubic spline, h to 1e-13."""
+    """500 particles 0.2 spacings off a square lattice, cubic spline, h to 1e-14."""
     x = jitter(square(BOX, 20), BOX, 0.2, seed=3)
-    without_psi = not any("psi" in term.makes for term in terms)
+    read = {"psi", "B"} & {name for term in terms for name in (*term.reads, *term.makes)}
+    left_out = {"psi", "B"} - read
     start = changes.pop("start", chaos)
-    given = (lambda x: {k: v for k, v in start(x).items() if k != "psi"}) if without_psi else start
+
+    def given(x):
+        return {k: v for k, v in start(x).items() if k not in left_out}
+
     return Scene(
-        **{"box": BOX, "positions": x, "density": SumMass(tolerance=1e-13), **changes, "start": given}, terms=terms
+        **{"box": BOX, "positions": x, "density": SumMass(tolerance=1e-14), **changes, "start": given}, terms=terms
     )
 
 

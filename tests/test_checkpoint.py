@@ -14,6 +14,7 @@ import pytest
 
 from taichi_spmhd import checkpoint, runtime  # noqa: F401  (child processes import * from here)
 from taichi_spmhd.errors import InputError
+from taichi_spmhd.kernels import CubicSpline
 from taichi_spmhd.lattice import jitter, square
 from taichi_spmhd.runtime import ti
 from taichi_spmhd.scene import Scene
@@ -231,8 +232,10 @@ def test_a_missing_file_and_another_scene_are_told(tmp_path, saved):
     path.write_bytes(content)
     with pytest.raises(InputError, match="144 particles, the scene has 256"):
         Simulation.load(path, turbulence(16))
-    with pytest.raises(InputError, match="psi"):
+    with pytest.raises(InputError, match="saved by another scene"):
         Simulation.load(path, scene.without(Cleaning))
+    with pytest.raises(InputError, match="saved by another scene"):
+        Simulation.load(path, scene.but(kernel=CubicSpline(1.3)))
 
 
 def test_a_folder_that_is_a_file_is_told(tmp_path, simulate):

@@ -33,7 +33,7 @@ MHD = (Stress(), Induction())
 
 
 def hydro(x, box, **changes):
-    start = {"rho": 1.0, "P": 1.0}
+    start = {"rho": 1.0} if isinstance(changes.get("eos"), Isothermal) else {"rho": 1.0, "P": 1.0}
     return Scene(**{"box": box, "positions": x, "start": lambda x: start, "terms": (Pressure(),), **changes})
 
 

@@ -113,7 +113,8 @@ class Reference:
         Bi, Bj = self.along(self.c["B"])
         div_B, div_v = -self.rho * ((Bi - Bj) * self.Gi).sum(1), -self.drho / self.rho
         b = -self.sum((ch * y)[:, None] * self.Gi + ch * y * self.Gj)
-        return {"b": b, "y": -ch * div_B - sigma * ch / self.h * y - 0.5 * y * div_v}
+        damping = sigma * ch / self.h * y
+        return {"b": b, "y": -ch * div_B - damping - 0.5 * y * div_v, "leak_E": -damping * y / self.rho}
 
 
 MHD = (Stress(), Induction())
