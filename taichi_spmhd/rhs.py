@@ -41,6 +41,7 @@ class RHS:
         self.lanes, self.looked = pairs.lanes, looked_at(parts, pairs.names)
         self.keys = {hook: self.with_hook(hook) for hook in ("close", "gather", "gathered", "settle")}
         self.pair_terms, self.local_terms = self.with_hook("pair"), self.with_hook("local")
+        self.sum_dt_terms = self.with_hook("longest")
         self.after_terms = self.with_hook("after")
         self.speed_terms, self.dt_terms = self.with_hook("speed"), self.with_hook("max_dt")
 
@@ -171,6 +172,8 @@ class RHS:
         step = ti.min(step, self.force * ti.sqrt(i.h / (total.v.norm() + TINY)))
         for term in ti.static(self.dt_terms):
             step = ti.min(step, term.max_dt(i, now))
+        for term in ti.static(self.sum_dt_terms):
+            step = ti.min(step, term.longest(i, total, now))
         return step
 
     @ti.kernel

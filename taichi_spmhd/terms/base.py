@@ -19,6 +19,7 @@ A part is a frozen dataclass. Everything below is optional.
     after(self, i, total, now) -> Struct what it adds to the rates once all pairs are summed (total: rates and sums)
     speed(self, i, j, w, now)            a signal speed between i and j, >= 0; the largest one limits the time step
     max_dt(self, i, now)                 the longest step this effect allows otherwise
+    longest(self, i, total, now)         the longest step those sums allow
     settle(self, i, now) -> Struct       members renewed in place at the end of a step
 
 `i` and `j` are particle records, `w` the pair's weights (w.e, w.r, w.Gi, w.Gj), `now` the present moment (now.t,

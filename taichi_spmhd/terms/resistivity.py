@@ -18,7 +18,7 @@ class Resistivity(Term):
     """
 
     alpha: float = 1.0
-    reads, evolves = {"B": vec3, "v": vec3, "vw": real}, {"b": vec3}
+    reads, evolves, sums = {"B": vec3, "v": vec3, "rho": real}, {"b": vec3}, {"exchange": real}
 
     def __post_init__(self):
         if not 0 <= self.alpha < 100:
@@ -27,11 +27,11 @@ class Resistivity(Term):
     @ti.func
     def pair(self, i, j, w, now):
         v_B = (i.v - j.v).cross(w.e).norm()
-        dB = i.B - j.B
-        rate = 0.5 * self.alpha * v_B * (w.Gi + w.Gj) * dB
-        return ti.Struct(b=rate, u=-0.5 * rate.dot(dB))
+        dB, exchange = i.B - j.B, v_B * (w.Gi + w.Gj)
+        rate = 0.5 * self.alpha * exchange * dB
+        return ti.Struct(b=rate, u=-0.5 * rate.dot(dB), exchange=exchange)
 
     @ti.func
-    def speed(self, i, j, w, now):
-        """The diffusion over a neighbour's distance is stable at the Courant step of vw + alpha v_B."""
-        return ti.max(i.vw, j.vw) + self.alpha * (i.v - j.v).cross(w.e).norm()
+    def longest(self, i, total, now):
+        """Explicit diffusion is stable while dt rho alpha/2 sum |exchange| <= 1 (Gershgorin); half is allowed."""
+        return 1.0 / (self.alpha * i.rho * ti.abs(total.exchange) + 1e-30)
