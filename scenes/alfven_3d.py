@@ -1,7 +1,7 @@
 """The Alfven wave in three dimensions: it clumps without xi there too.
 
 Circularly polarised, oblique to every axis. Lecture pp. 15-20; Gardiner & Stone 2008. As alfven_tensile: xi = 0 clumps
-into sheets across B, xi = 1/2 does not. The picture is a slice through the middle. It costs about 30 s on two cores.
+into sheets across B, xi = 1/2 does not. The picture is a slice through the middle. It costs about 15 s on two cores.
 
     spmhd run alfven_3d --set nx=32
 """
