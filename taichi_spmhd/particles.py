@@ -7,7 +7,6 @@ from .types import components, integer, real, struct, vec3, vecd
 
 HOT = {"x": vecd, "m": real, "hinv": real, "g": real, "v": vec3}  # what every pair loads
 COLD = {"h": real, "rho": real, "Omega": real, "id": integer, "x0": vecd, "h0": real}  # x0, h0: at the last list build
-NOW = {"t": real, "dt": real}
 
 
 @ti.data_oriented
@@ -27,7 +26,6 @@ class Particles:
         self.tree = ti.FieldsBuilder()
         self.state, self.spare = self.place(self.State, n + 1), self.place(self.State, n + 1)
         self.rate, self.old = self.place(self.Rate), self.place(self.Rate)
-        self.now = self.place(struct(NOW, dim), ())
         self.order = ti.field(ti.i32)
         self.tree.dense(ti.i, n).place(self.order)
         self.layout, self.width = [], 0
@@ -38,11 +36,10 @@ class Particles:
         self.word = np.float64 if ti.lang.impl.get_runtime().default_fp == ti.f64 else np.float32
         self.companions: list = []  # (field, spare) pairs that follow the state's order
 
-    def place(self, kind, shape=None):
-        """A field of a struct type in this simulation's tree; shape () for a single record."""
+    def place(self, kind, size: int | None = None):
+        """A field of a struct type, one record a particle unless a size is given, in this simulation's tree."""
         field = kind.field()
-        node = self.tree if shape == () else self.tree.dense(ti.i, self.n if shape is None else shape)
-        node.place(field)
+        self.tree.dense(ti.i, size or self.n).place(field)
         return field
 
     def finish(self) -> None:
