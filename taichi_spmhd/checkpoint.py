@@ -1,6 +1,5 @@
 """The state of a run on disk: all it takes to go on with the same bits, written whole or not at all."""
 
-import contextlib
 import os
 import zipfile
 import zlib
@@ -11,6 +10,7 @@ import numpy as np
 from .diagnostics.ledger import Ledger
 from .errors import InputError
 from .neighbours import STORY
+from .replacing import replacing
 
 FORMAT = 1
 WORDS = {8: "f64", 4: "f32"}
@@ -27,24 +27,14 @@ def save(sim, path) -> None:
     """
     sim.begin()
     path = Path(path)
-    part = path.with_name(f".{path.name}.{os.getpid()}.part")
     try:
-        with open(part, "wb") as file:
+        with replacing(path) as part, open(part, "wb") as file:
             np.savez(file, **content(sim))
             file.flush()
             os.fsync(file.fileno())
-        os.replace(part, path)
     except OSError as error:
         why = error.strerror or error
         raise InputError(f"cannot write {path}: {why}; free space or choose another folder (--out DIR)") from error
-    finally:
-        discard(part)
-
-
-def discard(part: Path) -> None:
-    """Remove what is left of a file that was not completed."""
-    with contextlib.suppress(OSError):  # the folder itself may be gone, or be no folder
-        part.unlink(missing_ok=True)
 
 
 def content(sim) -> dict[str, np.ndarray]:

@@ -100,9 +100,8 @@ class RHS:
             for part in ti.static(self.keys["close"]):
                 now = ti.Struct(t=t, dt=dt)
                 self.apply(n, part.close(self.p.state[n], now))
-        for _ in range(
-            1
-        ):  # nobody, who fills the rows, is particle 0 without mass: no term finds a member it cannot use
+        # nobody, who fills the rows, is particle 0 without mass: no term finds a member it cannot use
+        for _ in range(1):
             self.p.state[self.p.n] = self.p.state[0]
             self.p.state[self.p.n].m = 0.0
 

@@ -52,7 +52,7 @@ def equations(scene) -> list[tuple[str, str]]:
     """(a part as a scene file writes it, its equation): terms, then choices."""
     energy = [scene.energy] if scene.energy in scene.parts else []  # an isothermal gas has none
     choices = [scene.eos, *energy, scene.density, scene.kernel, scene.stepper]
-    rows = [("term " + str(term), term.equation()) for term in scene.terms]
+    rows = [("term " + str(term), first_line(term)) for term in scene.terms]
     rows += [(named(choice), first_line(choice)) for choice in choices]
     return [*rows, ("Boundary", edges(scene))]
 
@@ -66,7 +66,7 @@ def named(part) -> str:
 
 def first_line(part) -> str:
     """The first line of the docstring."""
-    return (type(part).__doc__ or "").strip().splitlines()[0]
+    return (type(part).__doc__ or type(part).__name__).strip().splitlines()[0]
 
 
 def edges(scene) -> str:

@@ -4,10 +4,11 @@ import errno
 import json
 import math
 import os
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from pathlib import Path
 
 from ..errors import InputError
+from ..replacing import replacing
 
 FULL = {errno.ENOSPC, getattr(errno, "EDQUOT", errno.ENOSPC)}
 CLOSED = {errno.EROFS, errno.EACCES, errno.EPERM}
@@ -31,22 +32,9 @@ def cure(error: OSError) -> str:
     return f"{error.strerror or error}; choose another folder with --out"
 
 
-@contextmanager
-def replacing(path: Path):
-    """A temporary name beside `path`, which takes its place when all went well and vanishes otherwise."""
-    part = path.with_name(f".{path.name}.{os.getpid()}.part")
-    try:
-        with writing(path):
-            yield part
-            os.replace(part, path)
-    finally:
-        with suppress(OSError):
-            part.unlink(missing_ok=True)
-
-
 def write_text(path: Path, text: str) -> None:
     """Replace a text file in one piece; it is on the disk when this returns."""
-    with replacing(path) as part:
+    with writing(path), replacing(path) as part:
         put(part, text)
 
 

@@ -6,7 +6,8 @@ from pathlib import Path
 
 from ..errors import InputError
 from ..library import slug
-from .files import as_json, put, read_json, replacing, write_text, writing
+from ..replacing import replacing
+from .files import as_json, put, read_json, write_text, writing
 
 CURES = {
     "scene file": "the scene file has changed since the run was started; start anew without --resume",
@@ -70,7 +71,7 @@ class Folder:
         self.check(record)
         with writing(self.root):
             self.frames.mkdir(parents=True, exist_ok=True)
-        with replacing(self.root / "run.json") as part:
+        with writing(self.root / "run.json"), replacing(self.root / "run.json") as part:
             put(part, as_json(record))
             before = self.earlier()
             for path in self.own(before) if before else []:
@@ -99,7 +100,7 @@ class Folder:
     def sweep(self) -> None:
         """Remove what killed runs left half written."""
         for folder in (self.root, self.frames):
-            for part in folder.glob(".*.part"):
+            for part in folder.glob(".*.part*"):
                 with suppress(OSError):
                     os.remove(part)
 

@@ -8,7 +8,7 @@ import numpy as np
 from PIL import Image
 
 from ..errors import InputError
-from .movie import checked, replacing
+from .movie import checked, place
 
 MOST_COLOURS = 255  # one of 256 is left for what does not change between frames
 FEWER = (128, 64)  # colours tried before the film is made smaller
@@ -109,5 +109,5 @@ def write_gif(
         raise InputError("a film needs at least one frame")
     durations = [max(20, round(1000 * seconds_per_frame))] * len(stack)  # browsers slow down what is faster than 20 ms
     durations[-1] += round(1000 * hold)
-    with replacing(path) as temporary:
+    with place(path) as temporary:
         return _within(temporary, stack, palette, durations, limit)

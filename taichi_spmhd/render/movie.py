@@ -2,26 +2,20 @@
 
 import os
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
 from PIL import Image
 
 from ..errors import InputError
+from ..replacing import replacing
 
 
-@contextmanager
-def replacing(path) -> Iterator[Path]:
-    """A temporary name in the same folder that becomes `path` when all went well and vanishes otherwise."""
+def place(path):
+    """A temporary name that becomes `path`, in a folder that is made where it is not there."""
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
-    temporary = path.with_name(f".{path.stem}.{os.getpid()}{path.suffix}")
-    try:
-        yield temporary
-        os.replace(temporary, path)
-    finally:
-        temporary.unlink(missing_ok=True)
+    return replacing(path, path.suffix)
 
 
 def _read(frame) -> np.ndarray:
@@ -48,7 +42,7 @@ def checked(frames: Iterable) -> Iterator[np.ndarray]:
 def write_png(path, rgb: np.ndarray) -> None:
     """Write a picture (H, W, 3) uint8."""
     (rgb,) = checked([rgb])
-    with replacing(path) as temporary:
+    with place(path) as temporary:
         Image.fromarray(rgb).save(temporary, format="PNG", compress_level=4)
 
 
@@ -72,7 +66,7 @@ def write_mp4(path, frames: Iterable, fps: float = 10.0) -> int:
     Raises InputError where imageio-ffmpeg is missing, for no frames and for frames of unequal sizes.
     """
     ffmpeg, writer = _ffmpeg(), None
-    with replacing(path) as temporary:
+    with place(path) as temporary:
         try:
             for rgb in map(_even, checked(frames)):
                 if writer is None:

@@ -53,10 +53,6 @@ class Part:
         """Every member this part touches."""
         return {**self.reads, **self.keeps, **self.makes, **self.evolves}
 
-    def equation(self) -> str:
-        """The first line of the docstring: the equation."""
-        return (type(self).__doc__ or type(self).__name__).strip().splitlines()[0]
-
     def __str__(self) -> str:
         given = (f"{f.name}={shown(getattr(self, f.name))}" for f in fields(self))
         return f"{type(self).__name__}({', '.join(given)})"
