@@ -14,8 +14,8 @@ try:
     from . import exact, terms
     from .boundary import Boundary, Frozen, Open, Periodic, Reflecting
     from .box import Box
-    from .density import SumMass
-    from .energy import Thermal
+    from .density import SumMass, SumVolume
+    from .energy import Thermal, Total
     from .eos import Adiabatic, Isothermal
     from .kernels import CubicSpline, Gaussian, QuinticSpline, WendlandC2, WendlandC4, WendlandC6
     from .lattice import close_packed, cubic, hexagonal, jitter, line, spacing, square
@@ -65,8 +65,10 @@ __all__ = [
     "Scene",
     "Simulation",
     "SumMass",
+    "SumVolume",
     "Term",
     "Thermal",
+    "Total",
     "WendlandC2",
     "WendlandC4",
     "WendlandC6",

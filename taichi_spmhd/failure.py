@@ -31,7 +31,11 @@ def spoilt(sim, table: np.ndarray, memory: int) -> str:
 
 
 def fastest(sim) -> tuple[int, str]:
-    """The particle (its place in memory) with the largest acceleration."""
+    """The particle (its place in memory) whose thermal energy ran out, else that with the largest acceleration."""
+    table, _ = sim.particles.table()
+    first = {name: first for name, _, first in sim.particles.layout}
+    if "u" in first and not table[:, first["u"]].min() > 0:
+        return int(np.argmin(table[:, first["u"]])), "u"
     return int(np.argmax(np.abs(sim.particles.rates()["v"]).sum(axis=1))), "v"
 
 
@@ -41,6 +45,15 @@ def loudest(sim, memory: int) -> str:
     for term in sim.rhs.parts:
         if term.has("pair") or term.has("local") or term.has("after"):
             out = np.zeros(1, sim.particles.word)
-            sim.rhs.share(term, memory, sim.time + sim.dt, sim.dt, sim.neighbours.near, sim.neighbours.count, out)
+            sim.rhs.share(
+                term,
+                memory,
+                sim.time + sim.dt,
+                sim.dt,
+                sim.neighbours.near,
+                sim.neighbours.count,
+                sim.rhs.moment.most,
+                out,
+            )
             shares[type(term).__name__] = np.inf if not np.isfinite(out[0]) else float(out[0])
     return max(shares, key=shares.get) if shares else "no term"

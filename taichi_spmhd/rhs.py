@@ -5,8 +5,10 @@ term that is not listed leaves no instruction.
 """
 
 from .errors import RunError
+from .moment import Moment
 from .pairs import TINY
 from .runtime import ti
+from .vector import traced
 
 MOST_BUILDS = 100  # of the list within one evaluation; h may grow by 30 % in each
 
@@ -40,9 +42,12 @@ class RHS:
         self.totals = {**particles.evolved, **{k: v for part in parts for k, v in part.sums.items()}}
         self.lanes, self.looked = pairs.lanes, looked_at(parts, pairs.names)
         self.keys = {hook: self.with_hook(hook) for hook in ("close", "gather", "gathered", "settle")}
+        self.opening = tuple(sorted(parts, key=lambda part: part.rank))
+        self.moment = Moment(particles, parts)
+        self.extras = tuple(dict.fromkeys(name for part in parts for name in part.weighs))
         self.pair_terms, self.local_terms = self.with_hook("pair"), self.with_hook("local")
         self.sum_dt_terms = self.with_hook("longest")
-        self.after_terms = self.with_hook("after")
+        self.after_terms = tuple(sorted(self.with_hook("after"), key=lambda part: part.rank))
         self.speed_terms, self.dt_terms = self.with_hook("speed"), self.with_hook("max_dt")
 
     def with_hook(self, hook: str) -> tuple:
@@ -59,9 +64,10 @@ class RHS:
     def from_density(self, t: float, dt: float) -> float:
         """The rest of an evaluation, where density and h belong to the positions already."""
         self.close(t, dt)
+        self.moment.find()
         if self.keys["gather"]:
-            self.gather(self.near.near, self.near.count, t, dt)
-        return self.rates(self.near.near, self.near.count, t, dt)
+            self.gather(self.near.near, self.near.count, t, dt, self.moment.most)
+        return self.rates(self.near.near, self.near.count, t, dt, self.moment.most)
 
     def neighbourhood(self) -> None:
         """A complete list, and density and h that belong to the present positions."""
@@ -87,7 +93,7 @@ class RHS:
     def open(self):
         """Evolved members from primitive ones; each part's own members follow, for the parts after it."""
         for n in range(self.p.n):
-            for part in ti.static(self.parts):
+            for part in ti.static(self.opening):
                 now = ti.Struct(t=0.0, dt=0.0)
                 if ti.static(part.has("open")):
                     self.apply(n, part.open(self.p.state[n], now))
@@ -106,19 +112,22 @@ class RHS:
             self.p.state[self.p.n].m = 0.0
 
     @ti.kernel
-    def settle(self, t: float, dt: float):
+    def settle(self, t: float, dt: float, most: ti.types.ndarray(ndim=1)):
         for n in range(self.p.n):
+            now = self.moment.now(t, dt, most)
             for part in ti.static(self.keys["settle"]):
-                now = ti.Struct(t=t, dt=dt)
                 self.apply(n, part.settle(self.p.state[n], now))
 
-    @ti.func
+    @traced
     def weights(self, i, j):
-        return self.choice.weights(i, j, self.pairs.between(i, j), self.kernel)
+        """The pair's weights, with those some part asked for."""
+        w = self.choice.weights(i, j, self.pairs.between(i, j), self.kernel)
+        more = {name: getattr(self.choice, name)(i, j, w, self.kernel) for name in self.extras}
+        return ti.Struct({**{name: getattr(w, name) for name in w.keys}, **more}) if more else w
 
     @ti.kernel
     def gather(self, near: ti.types.ndarray(dtype=ti.i32, ndim=2), rows: ti.types.ndarray(dtype=ti.i32, ndim=1),
-               t: float, dt: float):  # fmt: skip
+               t: float, dt: float, most: ti.types.ndarray(ndim=1)):  # fmt: skip
         """Neighbour sums some part asked for, then the members made from them."""
         for n in range(self.p.n):
             i, total = self.pairs.mine(n, self.looked), self.lanes.totals(self.gathers)
@@ -127,17 +136,17 @@ class RHS:
                 w = self.weights(i, j)
                 for part in ti.static(self.keys["gather"]):
                     total.add(part.gather(i, j, w), part)
-            sums, now = self.lanes.summed(total), ti.Struct(t=t, dt=dt)
+            sums, now = self.lanes.summed(total), self.moment.now(t, dt, most)
             for part in ti.static(self.keys["gathered"]):
                 self.apply(n, part.gathered(self.p.state[n], sums, now))
 
     @ti.kernel
     def rates(self, near: ti.types.ndarray(dtype=ti.i32, ndim=2), rows: ti.types.ndarray(dtype=ti.i32, ndim=1),
-              t: float, dt: float) -> ti.f32:  # fmt: skip
+              t: float, dt: float, most: ti.types.ndarray(ndim=1)) -> ti.f32:  # fmt: skip
         """The fused loop; returns the longest stable step of all particles."""
         longest = ti.cast(1e30, ti.f32)
         for n in range(self.p.n):
-            now = ti.Struct(t=t, dt=dt)
+            now = self.moment.now(t, dt, most)
             i, sums = self.pairs.mine(n, self.looked), self.lanes.totals(self.totals)
             fastest = self.lanes.slowest()
             for block in range(rows[n] // self.lanes.width):
@@ -177,10 +186,11 @@ class RHS:
 
     @ti.kernel
     def share(self, term: ti.template(), n: ti.i32, t: float, dt: float, near: ti.types.ndarray(dtype=ti.i32, ndim=2),
-              rows: ti.types.ndarray(dtype=ti.i32, ndim=1), out: ti.types.ndarray(ndim=1)):  # fmt: skip
+              rows: ti.types.ndarray(dtype=ti.i32, ndim=1), most: ti.types.ndarray(ndim=1),
+              out: ti.types.ndarray(ndim=1)):  # fmt: skip
         """What one term adds to the rates of one particle, summed in absolute value over the evolved members."""
         for _ in range(1):
-            now = ti.Struct(t=t, dt=dt)
+            now = self.moment.now(t, dt, most)
             i, sums = self.pairs.mine(n, self.looked), self.lanes.totals(self.totals)
             if ti.static(term.has("pair")):
                 for block in range(rows[n] // self.lanes.width):

@@ -8,8 +8,8 @@ import numpy as np
 
 from .boundary import Boundary, everywhere
 from .box import Box, as_box
-from .density import SumMass
-from .energy import Thermal
+from .density import SumMass, Summation
+from .energy import Energy, Thermal
 from .eos import Adiabatic, Isothermal
 from .errors import InputError
 from .kernels import CubicSpline, Kernel
@@ -35,8 +35,8 @@ class Scene:
     terms: tuple
     eos: object = field(default_factory=Adiabatic)
     kernel: Kernel = field(default_factory=CubicSpline)
-    density: SumMass = field(default_factory=SumMass)
-    energy: Thermal = field(default_factory=Thermal)
+    density: Summation = field(default_factory=SumMass)
+    energy: Energy = field(default_factory=Thermal)
     stepper: object = field(default_factory=LeapfrogKDK)
     boundary: Boundary = field(default_factory=everywhere)
     t_end: float = 1.0
@@ -61,7 +61,8 @@ class Scene:
     def parts(self) -> tuple:
         """Choices that take part in an evaluation, then the terms, in an order in which every need is made before."""
         energy = () if isinstance(self.eos, Isothermal) else (self.energy,)
-        return in_order((*energy, self.eos, *self.terms))
+        listed = (*energy, self.eos, *self.terms)
+        return in_order(tuple(part.among(listed) for part in listed))
 
     def sketch(self) -> str:
         """Terms, choices and box in one line: what a saved state must agree with."""
@@ -97,8 +98,8 @@ def in_order(parts: tuple) -> tuple:
 
 KINDS = {
     "eos": Choice,
-    "density": SumMass,
-    "energy": Thermal,
+    "density": Summation,
+    "energy": Energy,
     "stepper": Stepper,
     "kernel": Kernel,
     "boundary": Boundary,
@@ -170,6 +171,8 @@ def check_members(scene: Scene) -> None:
     """Every member a part reads must be given, made or evolved by somebody; every scene needs a signal speed."""
     there = GIVEN | {name for part in scene.parts for name in (*part.makes, *part.evolves, *part.keeps)}
     for part in scene.parts:
+        if "b" in part.sums and "B" not in there:
+            raise InputError(f"{type(part).__name__} changes B, which nothing in this scene evolves: {CURES['B']}")
         for name in part.reads:
             if name not in there:
                 cure = CURES.get(name, "list the term that makes it")

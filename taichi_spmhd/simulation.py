@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 from . import runtime, state
-from .density import Density
 from .errors import InputError, RunError
 from .failure import fail
 from .lanes import best as lanes
@@ -15,6 +14,7 @@ from .pairs import Pairs
 from .particles import Particles
 from .rhs import RHS
 from .scene import Scene
+from .smoothing import Density
 from .stepper import Advance
 from .types import integer
 
@@ -92,7 +92,7 @@ class Simulation:
         if self.ill:
             fail(self, "not finite or negative thermal energy")
         if self.rhs.keys["settle"]:
-            self.rhs.settle(self.time, dt)
+            self.rhs.settle(self.time, dt, self.rhs.moment.most)
         self.time += dt
         self.steps += 1
         spent = time.perf_counter() - clock

@@ -120,7 +120,9 @@ def ratio(sim, stick: Yardstick, repeats: int) -> tuple[float, float]:
     """ns a particle of the rates kernel and of the yardstick: minima of interleaved repeats."""
     near, best_of = sim.neighbours, [np.inf, np.inf]
     for _ in range(repeats + 1):  # the first compiles
-        for k, call in enumerate((lambda: sim.rhs.rates(near.near, near.count, sim.time, 0.0), stick.run)):
+        for k, call in enumerate(
+            (lambda: sim.rhs.rates(near.near, near.count, sim.time, 0.0, sim.rhs.moment.most), stick.run)
+        ):
             clock = time.perf_counter()
             call()
             ti.sync()

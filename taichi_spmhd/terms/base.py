@@ -7,11 +7,16 @@ A part is a frozen dataclass. Everything below is optional.
     makes    {name: type}    members it computes from evolved ones in `close`
     keeps    {name: type}    members saved with the state but neither evolved nor given by the scene
     gathers  {name: type}    neighbour sums its `gather` returns
-    sums     {name: type}    sums over pairs its `pair` returns beside rates, for its `after`
+    sums     {name: type}    sums over pairs its `pair` returns beside rates, for an `after`
+    mosts    {name: type}    numbers of which its `most` gives each particle's, and `now` holds the largest
+    weighs   (name, ...)     weights beside w.e, w.r, w.Gi, w.Gj that its `pair` uses (density.py: F, near)
+    rank     number          parts of higher rank open, and run `after`, later
 
+    among(self, parts) -> part           the part beside the others of its scene (plain Python)
     at(self, dim) -> part                the part for a number of dimensions (plain Python, when a Simulation is built)
     open(self, i, now) -> Struct         evolved members from primitive ones, once at t = 0
     close(self, i, now) -> Struct        the members it makes, at every evaluation
+    most(self, i) -> Struct              numbers >= 0 whose largest over all particles is in `now` from here on
     gather(self, i, j, w) -> Struct      neighbour sums needed before the rates (names of `gathers`)
     gathered(self, i, sums, now) -> Struct   members from those sums (names of `makes` or `keeps`)
     pair(self, i, j, w, now) -> Struct   what neighbour j adds to the rates of i
@@ -23,9 +28,10 @@ A part is a frozen dataclass. Everything below is optional.
     settle(self, i, now) -> Struct       members renewed in place at the end of a step
 
 `i` and `j` are particle records, `w` the pair's weights (w.e, w.r, w.Gi, w.Gj), `now` the present moment (now.t,
-now.dt = the step being taken, 0 before the first). A `pair` is branch-free (min, max, select) and vanishes by itself
-for j = i and outside the support, because it is built from w.Gi, w.Gj and differences. Numbers of a frozen term are
-compile-time constants.
+now.dt = the step being taken, 0 before the first, and the largest numbers of `most`). What changes B by other ways than
+induction is stated as `b`, a rate of B/rho, under `sums`: Induction knows what to do with it. A `pair` is branch-free
+(min, max, select) and vanishes by itself for j = i and outside the support, because it is built from w.Gi, w.Gj and
+differences. Numbers of a frozen term are compile-time constants.
 """
 
 from dataclasses import fields
@@ -40,6 +46,13 @@ class Part:
     keeps: dict = {}
     gathers: dict = {}
     sums: dict = {}
+    mosts: dict = {}
+    weighs: tuple = ()
+    rank: int = 0
+
+    def among(self, parts: tuple) -> "Part":
+        """This part beside the others of its scene."""
+        return self
 
     def at(self, dim: int) -> "Part":
         """This part for a number of dimensions."""

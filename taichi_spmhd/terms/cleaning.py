@@ -21,7 +21,7 @@ class Cleaning(Term):
     f_clean: float = 1.0
     reads = {"B": vec3, "v": vec3, "rho": real, "h": real, "vw": real, "y": real}
     makes = {"psi": real, "ch": real}
-    evolves = {"y": real, "b": vec3, "leak_E": real}
+    evolves, sums = {"y": real, "leak_E": real}, {"b": vec3}
 
     def __post_init__(self):
         if not (0 <= self.sigma < 100 and 0 < self.f_clean < 100):

@@ -18,7 +18,7 @@ class Resistivity(Term):
     """
 
     alpha: float = 1.0
-    reads, evolves, sums = {"B": vec3, "v": vec3, "rho": real}, {"b": vec3}, {"exchange": real}
+    reads, sums = {"B": vec3, "v": vec3, "rho": real}, {"b": vec3, "exchange": real}
 
     def __post_init__(self):
         if not 0 <= self.alpha < 100:
