@@ -13,7 +13,7 @@ from .rows import apart, rows, somebody, sorted_as
 BIN = 0.002  # spacings
 BLUR = 0.05  # spacings, s.d. of the Gaussian that smooths g before a peak is looked for
 APART = 0.25  # spacings: a peak is not exceeded within this distance on either side
-HEIGHT = 1.1  # of the smoothed g at a peak, at least: below it the particles lie as if strewn at random
+HEIGHT = 1.2  # of the smoothed g at a peak, at least: below it the particles lie as if strewn at random
 BALL = (2.0, np.pi, 4 / 3 * np.pi)  # volume of the unit ball in 1, 2, 3 dimensions
 
 
