@@ -10,9 +10,9 @@ from ..runtime import hardware
 
 NOTE = (
     "Gaps and the first peak of the pair correlation are in mean spacings (a first peak of 0: there is none); close "
-    "pairs: particles whose nearest neighbour is within half a spacing; drift: change since the start, of momentum in M "
-    "v_rms and of energy in E, as measured and as the terms predict it; div B: h |div B| / |B|; errors: normalised L1; "
-    "seconds: of stepping."
+    "pairs: particles whose nearest neighbour is within half a spacing; drift: change since the start, of momentum in "
+    "M v_rms and of energy in E, as measured and as the terms predict it; div B: h |div B| / |B|; errors: normalised "
+    "L1; seconds: of stepping."
 )
 
 
