@@ -35,9 +35,9 @@ def rows(sim, columns: dict) -> Rows:
     return Rows(x, period, sim.neighbours.near, sim.neighbours.count, ids)
 
 
-def sorted_as(list_of: Rows, values: np.ndarray) -> np.ndarray:
+def sorted_as(found: Rows, values: np.ndarray) -> np.ndarray:
     """Values of the caller's order in memory order, in the precision of the positions."""
-    return np.ascontiguousarray(values[list_of.ids], list_of.x.dtype)
+    return np.ascontiguousarray(values[found.ids], found.x.dtype)
 
 
 @ti.func

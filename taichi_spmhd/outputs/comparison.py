@@ -48,7 +48,7 @@ def comparison(made: dict, measures: dict[str, str | None]) -> str:
     entries = list(made["variants"].values())
     columns = {**COLUMNS, **error_columns(made["variants"], measures), "went wrong": figure("{}", "error")}
     cells = {name: [cell(entry) for entry in entries] for name, cell in columns.items()}
-    cells = {"variant": list(made["variants"]), **{name: all_ for name, all_ in cells.items() if any(all_)}}
+    cells = {"variant": list(made["variants"]), **{name: column for name, column in cells.items() if any(column)}}
     lines = [row(cells), row("---" for _ in cells), *map(row, zip(*cells.values(), strict=True))]
     return "\n".join([*head(made), "", *lines, "", NOTE, "", foot(made), ""])
 
