@@ -141,8 +141,11 @@ def test_a_uniform_field_is_negative_for_pairs_within_an_angle_of_it(arranged):
     assert negative_pairs(sim, in_field(sim, towards(0), P=np.full(len(sim), 0.05))) == 8 / 20
 
 
-class Few(SimpleNamespace):
-    """Three particles and the parts of a scene."""
+class Few:
+    """Three particles and the terms of a scene."""
+
+    def __init__(self, terms):
+        self.scene = SimpleNamespace(terms=terms)
 
     def __len__(self):
         return 3
@@ -154,9 +157,9 @@ def test_xi_is_a_number_a_member_a_rule_of_beta_or_absent():
     def of(given, **members):
         term = DivBSource()
         object.__setattr__(term, "xi", given)
-        return MODULE.xi_of(Few(parts=(Stress(), term)), {**c, **members}).tolist()
+        return MODULE.xi_of(Few((Stress(), term)), {**c, **members}).tolist()
 
-    assert MODULE.xi_of(Few(parts=MHD), c).tolist() == [0, 0, 0]
+    assert MODULE.xi_of(Few(MHD), c).tolist() == [0, 0, 0]
     assert of(0.3) == [0.3, 0.3, 0.3]
     assert of(lambda beta: beta / 10) == [0.2, 0.05, 0.4]
     assert of("a rule", xi=np.array([0.1, 0.2, 0.3])) == [0.1, 0.2, 0.3]

@@ -43,7 +43,7 @@ def xi_of(sim, columns: dict) -> np.ndarray:
 
     0 in a scene without that term. Raises InputError for an xi that is none of these.
     """
-    term = next((term for term in sim.parts if isinstance(term, DivBSource)), None)
+    term = next((term for term in sim.scene.terms if isinstance(term, DivBSource)), None)
     xi = term.xi if term else 0.0
     if isinstance(xi, Real):
         return np.full(len(sim), float(xi))
