@@ -7,6 +7,8 @@ oscillates behind the shocks; with it h |div B| / |B| falls. A grid run (Athena+
     spmhd run mhd_blast --set nx=64
 """
 
+from pathlib import Path
+
 import numpy as np
 
 from taichi_spmhd import Adiabatic, Picture, QuinticSpline, Scene, hexagonal
@@ -14,6 +16,8 @@ from taichi_spmhd.terms import Cleaning, Conductivity, CullenDehnen, DivBSource,
 
 BOX = ((-0.5, 0.5), (-0.5, 0.5))
 RADIUS, P_IN, P_OUT = 0.1, 10.0, 0.1
+
+REFERENCE = Path(__file__).parent / "reference" / "blast_mhd_t0.15_c128.npz"  # that grid run, in means of 128^2 cells
 
 
 def scenes(nx: int = 128, B0: float = 1.0, angle: float = 45.0, t_end: float = 0.15):
@@ -32,5 +36,6 @@ def scenes(nx: int = 128, B0: float = 1.0, angle: float = 45.0, t_end: float = 0
         terms=(Stress(), Induction(), DivBSource(xi=0.5), CullenDehnen(), Conductivity(), Resistivity()),
         t_end=t_end,
         picture=Picture("rho", limits=(0.0, 3.0), draw="sph"),
+        reference=REFERENCE if (B0, angle) == (1.0, 45.0) else None,
     )
     return {"without cleaning": bare, "with cleaning": bare.plus(Cleaning())}

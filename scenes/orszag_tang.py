@@ -8,6 +8,8 @@ from a hexagonal one. It costs about 50 s on two cores.
     spmhd run orszag_tang --set nx=64
 """
 
+from pathlib import Path
+
 import numpy as np
 
 from taichi_spmhd import Adiabatic, CubicSpline, Picture, Scene, square
@@ -15,6 +17,8 @@ from taichi_spmhd.terms import Cleaning, Conductivity, CullenDehnen, DivBSource,
 
 BOX = (1.0, 1.0)
 RHO, P, B0 = 25 / (36 * np.pi), 5 / (12 * np.pi), 1 / np.sqrt(4 * np.pi)
+
+REFERENCE = Path(__file__).parent / "reference" / "ot_t0.50_c128.npz"  # that grid run, in means of 128^2 cells
 
 
 def start(x):
@@ -36,5 +40,6 @@ def scenes(nx: int = 128, t_end: float = 0.5):
         terms=(Stress(), Induction(), DivBSource(xi=0.5), CullenDehnen(), Conductivity(), Resistivity()),
         t_end=t_end,
         picture=Picture("rho", limits=(0.08, 0.5), draw="sph"),
+        reference=REFERENCE,
     )
     return {"without cleaning": bare, "with cleaning": bare.plus(Cleaning())}

@@ -25,8 +25,8 @@ class Scene:
     box: lengths or intervals per axis; positions: (N, d); start(x) -> {"rho", "v", "P" or "u", "B", "psi", "mass"},
     arrays (N,) or (N, 3) or numbers; terms: the effects; eos, kernel, density, energy, stepper, boundary: one choice
     each. exact(x, t) -> {member: array}: the solution where there is one, `measure` the member whose error is quoted;
-    reference: path of a stored map, kept with the scene (no command reads it yet). Without "mass" the mass is rho
-    times volume / N.
+    reference: path of a stored map to compare with at its time (diagnostics/reference.py). Without "mass" the mass is
+    rho times volume / N.
     """
 
     box: Box
@@ -51,6 +51,8 @@ class Scene:
         x = numbers(self.positions)
         object.__setattr__(self, "positions", x[:, None] if x.ndim == 1 else x)
         object.__setattr__(self, "terms", tuple(self.terms))
+        if self.reference is not None:
+            object.__setattr__(self, "reference", Path(self.reference))
         check(self)
 
     @property
@@ -164,7 +166,20 @@ def check(scene: Scene) -> None:
         for other in scene.terms:
             if one is not other and isinstance(one, type(other)):
                 raise InputError(f"terms: {type(one).__name__} is a {type(other).__name__} already; list one of them")
+    check_reference(scene)
     check_members(scene)
+
+
+def check_reference(scene: Scene) -> None:
+    """A map is there, and of a plane."""
+    if scene.reference is None:
+        return
+    if scene.dim != 2:
+        raise InputError(f"Scene: reference given in {scene.dim} dimension(s); maps are of two: leave it out")
+    if not scene.reference.is_file():
+        raise InputError(
+            f"Scene: reference = {scene.reference} is no file; give the path of a .npz map, or leave it out"
+        )
 
 
 def check_members(scene: Scene) -> None:

@@ -35,13 +35,18 @@ def test_run_writes_all_files(wave, tmp_path, capsys):
     frames = {os.path.join("frames", f"{k:04d}.png") for k in range(5)}
     each = {f"{kind}_{label}" for label in ("xi_0", "xi_1-2") for kind in ("history", "state")}
     files = {name + (".csv" if name.startswith("history") else ".npz") for name in each}
-    assert names == frames | files | {"summary.json", "run.json", "wave.gif"}
+    assert names == frames | files | {"summary.json", "table.md", "run.json", "wave.gif"}
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
     assert summary["scene"] == "wave" and summary["parameters"]["nx"] == 16 and summary["frames"] == 5
     assert summary["precision"] == "f64" and summary["threads"] == 2 and summary["movie"] == "gif"
     assert summary["variants"]["xi = 1/2"]["t"] == 0.1 and summary["variants"]["xi = 0"]["particles"] == 256
     rows = (tmp_path / "out" / "history_xi_0.csv").read_text().splitlines()
     assert rows[0].startswith("t,step,dt,E_kin") and len(rows) == 6
+    table = [line.split(" | ") for line in (tmp_path / "out" / "table.md").read_text().splitlines() if " | " in line]
+    assert [line[0] for line in table] == ["| variant", "| ---", "| xi = 0", "| xi = 1/2"]
+    assert float(table[3][table[0].index("mean gap")]) == pytest.approx(
+        summary["variants"]["xi = 1/2"]["mean_gap"], abs=5e-4
+    )
     assert "xi = 1/2" in capsys.readouterr().out
 
 
@@ -74,7 +79,10 @@ def test_a_second_run_replaces_the_first_and_nothing_else(wave, tmp_path):
         "0099.png",
         "mine.png",
     ]
-    assert not (out / "state_xi_1-2.npz").exists()
+    assert not (out / "state_xi_1-2.npz").exists() and not (out / "table.md").exists()
+    (out / "table.md").write_text("mine: one variant writes none")
+    assert run(wave, out, "--frames", 3, "--variant", "xi = 0") == 0
+    assert (out / "table.md").read_text() == "mine: one variant writes none"
 
 
 def test_a_finished_run_is_not_run_again(wave, tmp_path, capsys):

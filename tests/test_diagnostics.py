@@ -14,6 +14,7 @@ from taichi_spmhd.diagnostics import (
     div_B,
     energies,
     errors,
+    first_peak,
     history_row,
     interpolate,
     momentum,
@@ -64,7 +65,7 @@ def test_a_particle_and_its_mirror_image_are_no_pair_and_lonely_ones_keep_the_nu
     sim = simulate(hydro(x, (1.0, 1.0), boundary=wall))
     assert nearest_gaps(sim).min() > 0.5
     pair = simulate(hydro([[0.2], [0.8]], (1.0,), boundary=Boundary(x=Open())))
-    assert all(np.isfinite(value) for value in clumping(pair).values())
+    assert all(np.isfinite(value) for value in (*clumping(pair).values(), first_peak(pair)))
 
 
 def test_div_B_is_the_difference_operator_over_the_field(disordered):
@@ -216,7 +217,8 @@ def test_the_summary_says_what_the_interface_promises_and_fits_in_json(disordere
     found = summary(sim)
     names = (
         "particles t steps seconds seconds_compile updates_per_s terms members evolved bytes_per_particle smallest_gap "
-        "mean_gap close_pairs energy_drift energy_drift_predicted momentum_drift momentum_drift_predicted div_B floors"
+        "mean_gap close_pairs first_peak energy_drift energy_drift_predicted momentum_drift momentum_drift_predicted "
+        "div_B div_B_force anisotropy negative_pairs floors"
     )
     assert list(found) == names.split()
     assert found["terms"] == ["Stress()", "Induction()", "DivBSource(xi=0.5)"]
@@ -227,8 +229,10 @@ def test_the_summary_says_what_the_interface_promises_and_fits_in_json(disordere
 def test_a_hydro_scene_has_no_div_B_and_its_history_row_is_complete(simulate):
     sim = simulate(hydro(square((1.0, 1.0), 12), (1.0, 1.0), kernel=WendlandC4()))
     sim.step()
-    assert "div_B" not in summary(sim) and not {"B", "b", "psi"} & set(summary(sim)["members"])
+    assert not {"div_B", "div_B_force", "anisotropy", "negative_pairs"} & set(summary(sim))
+    assert not {"B", "b", "psi"} & set(summary(sim)["members"])
     row = history_row(sim)
     assert tuple(row) == COLUMNS and row["step"] == 1
     assert all(np.isfinite(value) for value in row.values()) and row["E_mag"] == row["div_B_max"] == 0
+    assert row["anisotropy"] == row["negative_pairs"] == row["div_B_force"] == 0 and row["first_peak"] > 0.9
     json.dumps(row, allow_nan=False)

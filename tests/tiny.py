@@ -97,8 +97,14 @@ def line_of(text: str, words: str) -> int:
     return next(n for n, line in enumerate(text.splitlines(), 1) if words in line)
 
 
+def without_seconds(line: str) -> list[str]:
+    """The cells of a line of table.md; its third column is the stopwatch's, and the last line has the day."""
+    cells = line.split(" | ")
+    return [] if line.startswith("Made by") else cells[:2] + cells[3:]
+
+
 def contents(folder) -> dict:
-    """Every file of a run by name; states without the stopwatch, the summary without what depends on it."""
+    """Every file of a run by name; states without the stopwatch, summary and table without what depends on it."""
     found = {}
     for path in sorted(folder.rglob("*")):
         name = str(path.relative_to(folder))
@@ -112,6 +118,8 @@ def contents(folder) -> dict:
             found[name] = {
                 label: {k: v for k, v in e.items() if k not in drop} for label, e in made["variants"].items()
             }
+        elif path.name == "table.md":
+            found[name] = [without_seconds(line) for line in path.read_text().splitlines()]
         elif path.is_file():
             found[name] = path.read_bytes()
     return found

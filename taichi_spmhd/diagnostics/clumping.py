@@ -6,36 +6,39 @@ A hexagonal lattice has 1.075, a square one 1, healthy disorder 0.6 to 0.9; a cl
 import numpy as np
 
 from ..runtime import ti
+from .rows import Rows, apart, rows, somebody
 
 CLOSE = 0.5  # spacings: particles nearer than this are a clump
 NOBODY = 1e37  # squared distance of a neighbour that is not there; finite in f32 too
 
 
 @ti.kernel
-def nearest(neighbours: ti.template(), near: ti.types.ndarray(dtype=ti.i32, ndim=2),
-            rows: ti.types.ndarray(dtype=ti.i32, ndim=1), out: ti.types.ndarray(ndim=1)):  # fmt: skip
-    """Squared distance to the nearest particle, by the caller's index. Mirror images are no particles and skipped."""
-    for n in range(neighbours.p.n):
+def nearest(x: ti.types.ndarray(ndim=2), period: ti.types.ndarray(ndim=2), near: ti.types.ndarray(ti.i32, ndim=2),
+            count: ti.types.ndarray(ti.i32, ndim=1), out: ti.types.ndarray(ndim=1)):  # fmt: skip
+    """Squared distance to the nearest particle, in memory order."""
+    for n in range(x.shape[0]):
         least = ti.cast(NOBODY, float)
-        for k in range(rows[n]):
-            entry = near[n, k]
-            if entry != n and entry >= 0 and entry < neighbours.p.n:
-                r2 = ti.cast(0.0, float)
-                for a in ti.static(range(neighbours.dim)):
-                    here, there = neighbours.p.state[n].x[a], neighbours.p.state[entry].x[a]
-                    r2 += neighbours.separation(here, there, a, True) ** 2
-                least = ti.min(least, r2)
-        out[neighbours.p.state[n].id] = least
+        for k in range(count[n]):
+            if somebody(x, n, near[n, k]):
+                least = ti.min(least, apart(x, period, n, near[n, k]).norm_sqr())
+        out[n] = least
+
+
+def squared_gaps(found: Rows) -> np.ndarray:
+    """Squared distance (n,) to the nearest neighbour, in memory order; NOBODY where there is none."""
+    out = np.empty(len(found.x), found.x.dtype)
+    nearest(found.x, found.period, found.near, found.count, out)
+    return out
 
 
 def nearest_gaps(sim, columns: dict | None = None) -> np.ndarray:
     """Distance (N,) to the nearest neighbour in units of (m/rho)^(1/d), in the caller's order; inf for a lonely one."""
     columns = columns or sim.columns()
-    squared = np.empty(len(sim), sim.particles.word)
-    nearest(sim.neighbours, sim.neighbours.near, sim.neighbours.count, squared)
-    alone = squared >= 0.5 * NOBODY
+    found = rows(sim, columns)
+    squared = np.empty(len(sim), found.x.dtype)
+    squared[found.ids] = squared_gaps(found)
     gaps = np.sqrt(squared) * (columns["rho"] / columns["m"]) ** (1 / sim.dim)
-    return np.where(alone, np.inf, gaps)
+    return np.where(squared >= 0.5 * NOBODY, np.inf, gaps)
 
 
 def clumping(sim, columns: dict | None = None) -> dict[str, float]:

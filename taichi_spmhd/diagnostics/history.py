@@ -1,13 +1,15 @@
 """One row of history_<variant>.csv: what a frame's state contains, so that a run can be followed as numbers."""
 
 from .clumping import clumping
+from .correlation import first_peak
 from .field import div_B_figures
+from .instability import MEASURES, instability
 from .ledger import drifts, energies, momentum, predicted
 
 COLUMNS = (
     "t", "step", "dt", "E_kin", "E_int", "E_mag", "E_clean", "E_tot", "p_x", "p_y", "p_z", "E_drift_predicted",
     "p_drift_predicted_x", "p_drift_predicted_y", "p_drift_predicted_z", "smallest_gap", "mean_gap", "close_pairs",
-    "div_B_mean", "div_B_p99", "div_B_max", "floors",
+    "div_B_mean", "div_B_p99", "div_B_max", "floors", "first_peak", "anisotropy", "negative_pairs", "div_B_force",
 )  # fmt: skip
 
 
@@ -20,9 +22,10 @@ def history_row(sim) -> dict[str, float]:
     row.update(by_axis("p", momentum(sim, columns)))
     row["E_drift_predicted"] = energy
     row.update(by_axis("p_drift_predicted", push))
-    row.update(clumping(sim, columns))
+    row.update({**clumping(sim, columns), "first_peak": first_peak(sim, columns)})
     figures = div_B_figures(sim, columns) if "B" in columns else dict.fromkeys(("mean", "p99", "max"), 0.0)
     row.update({f"div_B_{name}": value for name, value in figures.items()})
+    row.update(instability(sim, columns) or dict.fromkeys(MEASURES, 0.0))
     row["floors"] = int(sim.floors)
     return {name: row[name] for name in COLUMNS}
 

@@ -1,17 +1,20 @@
 """What summary.json says of a variant, in Python numbers and strings."""
 
 from .clumping import clumping
+from .correlation import first_peak
 from .errors import errors
 from .field import div_B_figures
+from .instability import instability
 from .ledger import drifts
 
 
 def summary(sim) -> dict:
-    """The per-variant entry of summary.json: size, cost, terms, clumping, conservation, div B, errors."""
+    """The per-variant entry of summary.json: size, cost, terms, arrangement, conservation, div B, errors."""
     columns = sim.columns()
-    out = {**cost(sim), **contents(sim), **clumping(sim, columns), **drifts(sim, columns)}
+    out = {**cost(sim), **contents(sim), **clumping(sim, columns), "first_peak": first_peak(sim, columns)}
+    out.update(drifts(sim, columns))
     if "B" in columns:
-        out["div_B"] = div_B_figures(sim, columns)
+        out.update({"div_B": div_B_figures(sim, columns), **instability(sim, columns)})
     out["floors"] = int(sim.floors)
     found = errors(sim, columns)
     return {**out, "errors": found} if found else out

@@ -16,7 +16,10 @@ CURES = {
 
 
 class Folder:
-    """The files of a run: frames/0000.png, history_*.csv, state_*.npz, summary.json, film; run.json says what it is."""
+    """The files of a run: frames/0000.png, history_*.csv, state_*.npz, summary.json, table.md, film, and run.json.
+
+    run.json says what the run is and so which files are its own.
+    """
 
     def __init__(self, root):
         self.root = Path(root)
@@ -34,6 +37,10 @@ class Folder:
     @property
     def summary(self) -> Path:
         return self.root / "summary.json"
+
+    @property
+    def table(self) -> Path:
+        return self.root / "table.md"
 
     def frame(self, k: int) -> Path:
         return self.frames / f"{k:04d}.png"
@@ -55,7 +62,8 @@ class Folder:
     def own(self, record: dict) -> list[Path]:
         """Every file that a run with this record writes, run.json left out."""
         each = [path for label in record["variants"] for path in (self.history(label), self.state(label))]
-        return [self.summary, self.film(record), *each, *map(self.frame, range(record["frames"]))]
+        table = [self.table] if len(record["variants"]) > 1 else []
+        return [self.summary, *table, self.film(record), *each, *map(self.frame, range(record["frames"]))]
 
     def check(self, record: dict) -> None:
         """Raises InputError where starting anew would touch what is not this scene's."""

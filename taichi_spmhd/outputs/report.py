@@ -1,8 +1,9 @@
-"""The end of a run: summary.json, and a short table of what came out."""
+"""The end of a run: summary.json, table.md where variants can be compared, and a short table on the terminal."""
 
 from .. import __version__
 from ..runtime import ti
 from ..scene_code import code_of
+from .comparison import comparison
 from .files import as_json, write_text
 from .run import Run
 from .words import duration, rate, say, size, table
@@ -30,14 +31,17 @@ def summary(run: Run) -> dict:
 
 
 def finish(run: Run) -> dict:
-    """Write summary.json, mark the run as ended, return the summary."""
+    """Write summary.json and table.md, mark the run as ended, return the summary."""
     made = summary(run)
     write_text(run.folder.summary, as_json(made))
+    if len(run.plan.variants) > 1:
+        measures = {label: scene.measure for label, scene in run.plan.variants.items()}
+        write_text(run.folder.table, comparison(made, measures))
     run.folder.update(finished=True)
     return made
 
 
-HEADERS = ("", "steps", "seconds", "speed", "mean gap", "close pairs", "energy drift", "errors")
+HEADERS = ("", "steps", "seconds", "speed", "mean gap", "close pairs", "momentum drift", "energy drift", "errors")
 
 
 def tell(made: dict, run: Run) -> None:
@@ -45,6 +49,7 @@ def tell(made: dict, run: Run) -> None:
     table(HEADERS, [row(label, made["variants"][label], scene.measure) for label, scene in run.plan.variants.items()])
     film, count = run.folder.film(run.folder.record), len(list(run.folder.frames.glob("[0-9]*.png")))
     parts = [f"{count} frames"] + ([f"{film.name} ({size(film.stat().st_size)})"] if film.exists() else [])
+    parts += ["table.md"] if run.folder.table in run.folder.own(run.folder.record) else []
     say(f"{run.folder.root}: {', '.join(parts)}, summary.json, histories, states")
 
 
@@ -59,6 +64,7 @@ def row(label: str, entry: dict, measure: str | None) -> tuple:
         rate(entry["updates_per_s"]),
         figure(entry.get("mean_gap"), "{:.3f}"),
         figure(entry.get("close_pairs"), "{:.1%}").replace("%", " %"),
+        figure(entry.get("momentum_drift"), "{:.1e}"),
         figure(entry.get("energy_drift"), "{:.1e}"),
         ("went wrong; " if "error" in entry else "") + errors,
     )
