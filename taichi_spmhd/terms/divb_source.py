@@ -41,7 +41,7 @@ class DivBSource(Term):
     def strength(self, i):
         """xi of particle i."""
         xi = ti.cast(0.0, float)
-        if ti.static(isinstance(self.xi, XiRule)):
+        if ti.static(isinstance(self.xi, XiRule)):  # noqa: SIM108  (only one branch is compiled)
             xi = self.xi.of(2.0 * i.P / (i.B.dot(i.B) + 1e-30))
         else:
             xi = self.xi

@@ -14,10 +14,10 @@ class StressShift(Term):
     Adds one constant to the stress of all pairs, so that none is negative (lecture p. 18; Phillips & Monaghan 1985). A
     constant exerts no force in the continuum, and the pairs stay antisymmetric: momentum is conserved exactly. The
     price: sum (Gi + Gj) e does not vanish among disordered particles, so where the stress is far below T0, which the
-    strongest field anywhere sets, gas at rest is pushed about by T0 times that error. T0 belongs to no energy: u is left
+    strongest field anywhere sets, gas at rest is pushed about by T0 times that error. T0 belongs to no energy: u stays
     as it is and the work done is integrated in leak_E, so that the energy drift is predicted.
-    Advice: lift = 1; above it shows what gas feels when a stronger field stands elsewhere. Not with DivBSource, which
-    does the same work already.
+    Advice: lift = 1 leaves the strongest stress at zero, stable without a margin; more of it shows what gas feels when
+    a stronger field stands elsewhere, and takes shorter steps. Not with DivBSource, which does the same work already.
     """
 
     lift: float = 1.0
