@@ -172,17 +172,19 @@ def largest_displacement(sim, duration: int) -> float:
 
 
 @pytest.mark.parametrize(
-    "cure", [StressShift(), pytest.param(DivBSource(MinimalXi()), marks=pytest.mark.slow)], ids=str
+    ("cure", "most"), [(StressShift(), 3), pytest.param(DivBSource(MinimalXi()), 1.5, marks=pytest.mark.slow)], ids=str
 )
-def test_shift_and_minimal_xi_keep_a_noisy_lattice_as_it_is(cure, simulate):
-    # 15 dx/v_A are 19 e-foldings of the bare lattice; a stable one only oscillates about its start (measured <= 1.0)
+def test_shift_and_minimal_xi_stop_the_growth(cure, most, simulate):
+    # 15 dx/v_A are 19 e-foldings of the bare lattice. With MinimalXi it oscillates about its start (measured 0.90); the
+    # shift leaves the strongest stress at zero, so particles drift as their noise sends them: 2.1 times the start here,
+    # 4.5 times at 30 dx/v_A, in proportion to time
     scene = load_scene("uniform_field", nx=16, beta=0.1)["xi = 0"].plus(cure).but(kernel=WendlandC4())
-    assert largest_displacement(simulate(scene), 15) < 3
+    assert largest_displacement(simulate(scene), 15) < most
 
 
 @pytest.mark.slow
 def test_a_shift_far_above_the_local_stress_takes_steps_short_enough(simulate):
-    # waves of sqrt(2 T0/rho) = 30 v_A, which vw does not know
+    # waves of sqrt(2 T0/rho) = 30 v_A, which vw does not know. Measured 0.7; without the term's max_dt 1600
     scene = load_scene("uniform_field", nx=16, beta=0.1)["xi = 0"].plus(StressShift(lift=1000.0))
     assert largest_displacement(simulate(scene.but(kernel=WendlandC4())), 3) < 3
 

@@ -11,9 +11,9 @@ class Repulsion(Term):
     """dv_i/dt = - sum_j ( R_i Gi + R_j Gj ) near^n e,   R = eps max( B_par^2 - P - B^2/2, 0 )
 
     Pushes particles apart that come too close where the stress along their line attracts them (lecture p. 18; Monaghan
-    2000, for weakly compressible fluids). near = W(r, h)/W(dx, h) is 1 at the mean spacing dx and grows inwards, B_par =
-    B.e. Antisymmetric: momentum is conserved exactly. Its work has no energy to come from and is integrated in leak_E,
-    so that the energy drift is predicted.
+    2000, for weakly compressible fluids). B_par = B.e; near = W(r, h)/W(dx, h) is 1 at the mean spacing dx and grows
+    inwards. Antisymmetric: momentum is conserved exactly. Its work has no energy to come from and is integrated in
+    leak_E, so that the energy drift is predicted.
     Advice: no cure where beta is far below 1, but a lesson. At beta = 0.1 along the rows of a hexagonal lattice the
     instability grows by 1.24 v_A/dx without it, 0.91 with eps = 0.2, about 0.3 with eps = 1 (measured): later, not
     never. From eps = 2 on the stress it adds along B drives an instability of its own.
