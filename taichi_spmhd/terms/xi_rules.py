@@ -20,6 +20,7 @@ def clip(value, low, high):
     return ti.min(ti.max(value, low), high)
 
 
+@dataclass(frozen=True)
 class XiRule:
     """xi = of(beta), beta = 2P/B^2 of particle i."""
 
