@@ -142,6 +142,7 @@ CURES = {
     "B": "list Induction() (Stress and everything magnetic need an evolved field)",
     "u": "use eos=Adiabatic(gamma): an isothermal gas has no thermal energy",
     "vw": "list Pressure() or, with a magnetic field, Stress()",
+    "Pt": "list Stress(), whose pull it answers",
 }
 
 

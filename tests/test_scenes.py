@@ -9,6 +9,7 @@ from taichi_spmhd.library import shipped
 SMALL = {  # parameters that make a scene quick, and what it must have kept
     "alfven_tensile": {"nx": 12, "t_end": 0.1},
     "alfven_3d": {"nx": 16, "t_end": 0.2},
+    "tensile_cures": {"nx": 12, "t_end": 0.1},
     "uniform_field": {"nx": 16, "duration": 2.0},
     "frozen_field": {"nx": 24, "t_end": 0.1},
     "orszag_tang": {"nx": 32, "t_end": 0.1},

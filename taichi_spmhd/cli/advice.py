@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from ..terms import xi_of
+
 ROUND = 1e-5  # a disturbance smaller than this share of its background drowns in the rounding of f32
 
 
@@ -10,30 +12,34 @@ def warnings(sim) -> list[str]:
     columns, terms = sim.columns(), {type(term).__name__: term for term in sim.scene.terms}
     found = []
     if "Stress" in terms and "B" in columns:
-        found += clumping(columns, getattr(terms.get("DivBSource"), "xi", 0.0))
+        found += clumping(columns, terms)
     if "Cleaning" in terms and "Stress" not in terms:
         found.append("Cleaning without Stress: nothing feels the field that is cleaned; list Stress()")
-    if "DivBSource" in terms and "Stress" not in terms:
-        found.append("DivBSource without Stress: there is no force along B to take away; list Stress()")
+    for cure in ("DivBSource", "StressShift"):
+        if cure in terms and "Stress" not in terms:
+            found.append(f"{cure} without Stress: there is no force along B to take away; list Stress()")
     if sim.particles.word().itemsize == 4:
         found += rounding(columns)
     return found
 
 
-def clumping(columns: dict, xi: float) -> list[str]:
-    """xi against (1 - beta)/2 and against what is known of very low beta."""
+def clumping(columns: dict, terms: dict) -> list[str]:
+    """xi against (1 - beta)/2, and against what is known of very low beta."""
     B2 = (columns["B"].astype(float) ** 2).sum(axis=1)
-    if not B2.any():
+    if not B2.any() or getattr(terms.get("StressShift"), "lift", 0.0) >= 1:
         return []
-    lowest = float((2 * columns["P"] / np.maximum(B2, 1e-30)).min())
-    need = (1 - lowest) / 2
-    if xi < need - 1e-9:
+    beta = 2 * columns["P"].astype(float) / np.maximum(B2, 1e-30)
+    xi, need = xi_of(terms.get("DivBSource"), beta), (1 - beta) / 2
+    lacking = np.flatnonzero(xi < need - 1e-9)
+    if len(lacking):
+        k, late = lacking[np.argmin(beta[lacking])], "; Repulsion only delays it" if "Repulsion" in terms else ""
         return [
-            f"will clump: the lowest beta is {lowest:.3g}, so particles attract each other along B unless "
-            f"xi >= (1 - beta)/2 = {need:.3g}; here xi = {xi:g}: add DivBSource(xi=0.5)"
+            f"will clump: the lowest beta is {beta[k]:.3g}, so particles attract each other along B unless "
+            f"xi >= (1 - beta)/2 = {need[k]:.3g}; here xi = {xi[k]:g}: add DivBSource(xi=0.5){late}"
         ]
-    if lowest < 0.01 and xi < 1:
-        return [f"xi = {xi:g} is marginal at beta = {lowest:.2g} (below 0.01); take DivBSource(xi=1)"]
+    k = int(np.argmin(beta))
+    if beta[k] < 0.01 and xi[k] < 1:
+        return [f"xi = {xi[k]:g} is marginal at beta = {beta[k]:.2g} (below 0.01); take DivBSource(xi=1)"]
     return []
 
 

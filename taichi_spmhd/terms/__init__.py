@@ -6,10 +6,13 @@ from .conductivity import Conductivity
 from .divb_source import DivBSource
 from .induction import Induction
 from .pressure import Pressure
+from .repulsion import Repulsion
 from .resistivity import Resistivity
 from .stress import Stress
+from .stress_shift import StressShift
 from .switch import CullenDehnen
 from .viscosity import Viscosity
+from .xi_rules import LogLinearXi, MinimalXi, PhantomXi, XiRule, xi_of
 
 __all__ = [
     "Choice",
@@ -18,10 +21,17 @@ __all__ = [
     "CullenDehnen",
     "DivBSource",
     "Induction",
+    "LogLinearXi",
+    "MinimalXi",
     "Part",
+    "PhantomXi",
     "Pressure",
+    "Repulsion",
     "Resistivity",
     "Stress",
+    "StressShift",
     "Term",
     "Viscosity",
+    "XiRule",
+    "xi_of",
 ]

@@ -1,9 +1,11 @@
 from dataclasses import dataclass
+from numbers import Real
 
 from ..errors import InputError
 from ..runtime import ti
 from ..types import real, vec3
 from .base import Term
+from .xi_rules import XiRule
 
 
 @dataclass(frozen=True)
@@ -13,17 +15,37 @@ class DivBSource(Term):
     The cure of the tensile instability: it takes the force along B that div B errors exert away (lecture pp. 18-20;
     Borve, Omang & Trulsen 2001; Iwasaki 2015). S is the symmetric div B / rho, the one the stress contains.
     Stable for xi >= (1 - beta)/2, beta = 2P/B^2. Advice: xi = 1/2 keeps waves along B at their speed and is enough down
-    to beta ~ 0.01; below use xi = 1. Momentum and energy are no longer conserved exactly: what this force adds
-    to them is integrated beside v (leak_v, leak_E per mass), so that the drift is predicted and not only measured.
+    to beta ~ 0.01; below use xi = 1. xi may be a rule instead of a number, PhantomXi(), LogLinearXi() or MinimalXi():
+    then each particle has its own, from its beta. Momentum and energy are no longer conserved exactly: what this force
+    adds to them is integrated beside v (leak_v, leak_E per mass), so that the drift is predicted and not only measured.
     """
 
-    xi: float = 1.0
-    reads, sums = {"B": vec3, "v": vec3}, {"S": real}
+    xi: float | XiRule = 1.0
+    sums = {"S": real}
     evolves = {"v": vec3, "leak_v": vec3, "leak_E": real}
 
     def __post_init__(self):
-        if not 0 <= self.xi <= 2:
-            raise InputError(f"DivBSource: xi = {self.xi} must lie in 0..2; 1/2 cures, 1 is the Lorentz force")
+        number = isinstance(self.xi, Real) and 0 <= self.xi <= 2
+        if not number and not isinstance(self.xi, XiRule):
+            raise InputError(
+                f"DivBSource: xi = {self.xi!r} must lie in 0..2 (1/2 cures, 1 is the Lorentz force) "
+                "or be a rule, for example MinimalXi()"
+            )
+
+    @property
+    def reads(self) -> dict:
+        """The pressure only where a rule asks for beta."""
+        return {"B": vec3, "v": vec3} | ({"P": real} if isinstance(self.xi, XiRule) else {})
+
+    @ti.func
+    def strength(self, i):
+        """xi of particle i."""
+        xi = ti.cast(0.0, float)
+        if ti.static(isinstance(self.xi, XiRule)):  # noqa: SIM108  (only one branch is compiled)
+            xi = self.xi.of(2.0 * i.P / (i.B.dot(i.B) + 1e-30))
+        else:
+            xi = self.xi
+        return xi
 
     @ti.func
     def pair(self, i, j, w, now):
@@ -31,5 +53,5 @@ class DivBSource(Term):
 
     @ti.func
     def after(self, i, total, now):
-        force = -self.xi * total.S * i.B
+        force = -self.strength(i) * total.S * i.B
         return ti.Struct(v=force, leak_v=force, leak_E=force.dot(i.v))
