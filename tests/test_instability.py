@@ -1,19 +1,17 @@
 """How particles are arranged and what pulls them together: lattices whose numbers are known, sums over all pairs."""
 
 from importlib import import_module
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from test_terms import Reference, dot
 
-from taichi_spmhd import InputError
 from taichi_spmhd.boundary import Boundary, Frozen
 from taichi_spmhd.diagnostics import anisotropy, div_B_force, first_peak, instability, negative_pairs, pair_correlation
 from taichi_spmhd.lattice import close_packed, hexagonal, line, square
 from taichi_spmhd.scene import Scene
 from taichi_spmhd.simulation import Simulation
-from taichi_spmhd.terms import DivBSource, Induction, Pressure, Stress
+from taichi_spmhd.terms import DivBSource, Induction, MinimalXi, Pressure, Stress
 
 MODULE = import_module("taichi_spmhd.diagnostics.negative_pairs")  # the package gives its name to the function
 MHD = (Stress(), Induction())
@@ -124,7 +122,7 @@ def test_negative_pairs_are_those_of_a_search_over_all_pairs(disordered, monkeyp
     """With an xi of each particle's own, from `weakest` up to 1."""
     sim = disordered(*MHD)
     xi = np.random.default_rng(2).uniform(weakest, 1, len(sim))
-    monkeypatch.setattr(MODULE, "xi_of", lambda sim, columns: xi)
+    monkeypatch.setattr(MODULE, "xi_of_each", lambda sim, columns: xi)
     c, (r, e) = {**sim.columns(), "P": 0.1 * sim["P"]}, all_pairs(sim)
     pairs = r < 2 * np.maximum(c["h"][:, None], c["h"][None])
     own = (c["P"] + 0.5 * dot(c["B"], c["B"]))[:, None] - (1 - xi)[:, None] * dot(c["B"][:, None], e) ** 2
@@ -141,30 +139,12 @@ def test_a_uniform_field_is_negative_for_pairs_within_an_angle_of_it(arranged):
     assert negative_pairs(sim, in_field(sim, towards(0), P=np.full(len(sim), 0.05))) == 8 / 20
 
 
-class Few:
-    """Three particles and the terms of a scene."""
-
-    def __init__(self, terms):
-        self.scene = SimpleNamespace(terms=terms)
-
-    def __len__(self):
-        return 3
-
-
-def test_xi_is_a_number_a_member_a_rule_of_beta_or_absent():
-    c = {"P": np.array([1.0, 1.0, 2.0]), "B": np.array([[1.0, 0, 0], [0, 2.0, 0], [0, 0, 1.0]])}
-
-    def of(given, **members):
-        term = DivBSource()
-        object.__setattr__(term, "xi", given)
-        return MODULE.xi_of(Few((Stress(), term)), {**c, **members}).tolist()
-
-    assert MODULE.xi_of(Few(MHD), c).tolist() == [0, 0, 0]
-    assert of(0.3) == [0.3, 0.3, 0.3]
-    assert of(lambda beta: beta / 10) == [0.2, 0.05, 0.4]
-    assert of("a rule", xi=np.array([0.1, 0.2, 0.3])) == [0.1, 0.2, 0.3]
-    with pytest.raises(InputError, match="no number, no rule of beta and no member"):
-        of("a rule")
+def test_a_rule_of_xi_is_taken_at_each_particles_beta(disordered):
+    sim = disordered(*MHD, DivBSource(xi=MinimalXi(margin=0.0)))
+    c = sim.columns()
+    beta = 2 * c["P"] / dot(c["B"], c["B"])
+    assert MODULE.xi_of_each(sim, c) == pytest.approx(np.clip((1 - beta) / 2, 0, 1), abs=1e-14)
+    assert MODULE.xi_of_each(disordered(*MHD), c).tolist() == [0] * len(sim)
 
 
 def test_the_force_ratio_is_that_of_the_sums_over_all_pairs(disordered):

@@ -4,13 +4,10 @@ S_par is the stress along the line between two particles, the mean of both (lect
 particle that comes closer is pulled closer still: the share foretells clumping before any is seen.
 """
 
-from numbers import Real
-
 import numpy as np
 
-from ..errors import InputError
 from ..runtime import ti
-from ..terms import DivBSource
+from ..terms import DivBSource, xi_of
 from .rows import apart, rows, somebody, sorted_as
 
 
@@ -38,21 +35,11 @@ def tally(x: ti.types.ndarray(ndim=2), period: ti.types.ndarray(ndim=2), near: t
         out[n, 0], out[n, 1] = pairs, negative
 
 
-def xi_of(sim, columns: dict) -> np.ndarray:
-    """xi (N,) of the scene's DivBSource: its number, the member xi where it makes one, or its rule of beta = 2P/B^2.
-
-    0 in a scene without that term. Raises InputError for an xi that is none of these.
-    """
+def xi_of_each(sim, columns: dict) -> np.ndarray:
+    """xi (N,) of the scene's DivBSource, by number or by rule of beta = 2P/B^2; 0 in a scene without that term."""
     term = next((term for term in sim.scene.terms if isinstance(term, DivBSource)), None)
-    xi = term.xi if term else 0.0
-    if isinstance(xi, Real):
-        return np.full(len(sim), float(xi))
-    if "xi" in columns:
-        return columns["xi"].astype(float)
-    if callable(xi):
-        B2 = (columns["B"].astype(float) ** 2).sum(axis=1)
-        return np.broadcast_to(xi(2 * columns["P"] / np.maximum(B2, 1e-300)), len(sim))
-    raise InputError(f"negative_pairs: xi = {xi!r} is no number, no rule of beta and no member")
+    B2 = (columns["B"].astype(float) ** 2).sum(axis=1)
+    return xi_of(term, (2 * columns["P"] / np.maximum(B2, 1e-30)).astype(sim.particles.word))
 
 
 def negative_pairs(sim, columns: dict | None = None) -> float:
@@ -61,7 +48,7 @@ def negative_pairs(sim, columns: dict | None = None) -> float:
     found, B = rows(sim, columns), columns["B"].astype(float)
     push = columns["P"] + 0.5 * (B**2).sum(axis=1)
     reach = sim.neighbours.kernel.support * columns["h"]
-    own = sorted_as(found, np.column_stack([reach, push, 1 - xi_of(sim, columns), B]))
+    own = sorted_as(found, np.column_stack([reach, push, 1 - xi_of_each(sim, columns), B]))
     out = np.empty((len(sim), 2), np.int32)
     tally(found.x, found.period, found.near, found.count, own, out)
     pairs, negative = out.sum(axis=0, dtype=np.int64)
