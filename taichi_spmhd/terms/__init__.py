@@ -5,6 +5,7 @@ from .cleaning import Cleaning
 from .conductivity import Conductivity
 from .divb_source import DivBSource
 from .induction import Induction
+from .passive_density import PassiveDensity
 from .pressure import Pressure
 from .resistivity import Resistivity
 from .stress import Stress
@@ -19,6 +20,7 @@ __all__ = [
     "DivBSource",
     "Induction",
     "Part",
+    "PassiveDensity",
     "Pressure",
     "Resistivity",
     "Stress",
