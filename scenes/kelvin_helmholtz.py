@@ -1,9 +1,9 @@
 """Kelvin-Helmholtz: a shear layer rolls up, and a field along the flow holds it straight.
 
 Smooth layers after McNally et al. 2012 and Robertson et al. 2010: a band of rho = 2 moves at +1/2 through gas of
-rho = 1 at -1/2, v_y = 0.1 sin 2 pi x. Without a field one billow a layer grows by e in 0.58. The weak field (B = 0.2 is
-v_A = 0.2 in the thin gas) slows it a little, is wound up and amplified, and tears the billow apart; the strong one,
-v_A >= dv/2, stiffens the layer: the wave only swings (Chandrasekhar 1961). It costs about 90 s on two cores.
+rho = 1 at -1/2, v_y = 0.1 sin 2 pi x. Without a field a billow a layer grows, by e in 0.58 while it is small. A weak
+field along the flow is wound up instead: its energy doubles by t = 2, and the billow stays behind. A strong one,
+v_A >= dv/2, stiffens the layer, and the wave only swings (Chandrasekhar 1961). It costs about 100 s on two cores.
 
     spmhd run kelvin_helmholtz --set nx=64
 """

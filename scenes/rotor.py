@@ -11,7 +11,7 @@ inside, the flow still turns as a solid body. Pressures differ by 40 in thin gas
 import numpy as np
 
 from taichi_spmhd import Adiabatic, Box, Picture, QuinticSpline, Scene, hexagonal
-from taichi_spmhd.lattice import staggered
+from taichi_spmhd.lattice import even, staggered
 from taichi_spmhd.terms import Cleaning, Conductivity, CullenDehnen, DivBSource, Induction, Resistivity, Stress
 
 BOX = ((-0.5, 0.5), (-0.5, 0.5))
@@ -35,17 +35,22 @@ def start(x):
 def positions(nx: int) -> tuple[np.ndarray, float]:
     """Equal masses (and which) as rho asks: a fine lattice in the disc, rings in the taper, a coarse lattice outside.
 
-    Symmetric under half a turn, as the flow is.
+    Symmetric under half a turn, as the flow is. Each part holds its mass to one pair of particles.
     """
-    coarse = hexagonal(BOX, nx)
+    coarse = outwards(hexagonal(BOX, nx))
     mass = 1.0 / len(coarse)
     rows = len(coarse) // nx
-    half = int(np.ceil(EDGE * max(nx, rows) * np.sqrt(RHO_DISC))) + 2  # so that the fine lattice covers the disc
-    half += half % 2
+    half = even(EDGE * max(nx, rows) * np.sqrt(RHO_DISC)) + 4  # so that the fine lattice covers the disc
     size = half / np.sqrt(RHO_DISC) / np.array([nx, rows])
-    fine = staggered(Box(tuple(-size), tuple(size)), 2 * half, 2 * half)
-    inside, beyond = np.hypot(*fine.T) < EDGE, np.hypot(*coarse.T) >= OUTSIDE
-    return np.concatenate([fine[inside], *rings(mass), coarse[beyond]]), mass
+    fine = outwards(staggered(Box(tuple(-size), tuple(size)), 2 * half, 2 * half))
+    inside, within = (even(density * np.pi * r**2 / mass) for density, r in ((RHO_DISC, EDGE), (1.0, OUTSIDE)))
+    return np.concatenate([fine[:inside], *rings(mass), coarse[within:]]), mass
+
+
+def outwards(x) -> np.ndarray:
+    """The same points from the centre outwards, x and -x side by side."""
+    angle = np.arctan2(x[:, 1], x[:, 0]) % np.pi
+    return x[np.lexsort([angle.round(9), np.hypot(x[:, 0], x[:, 1]).round(9)])]
 
 
 def rings(mass: float) -> list[np.ndarray]:
@@ -57,7 +62,7 @@ def rings(mass: float) -> list[np.ndarray]:
     edges = np.interp(np.linspace(0, layers[-1], count + 1), layers, r)
     holds = np.pi * (r[1] - r[0]) / mass * np.diff(np.interp(edges, r, inside))
     middles = 0.5 * (edges[1:] + edges[:-1])
-    return [ring(radius, 2 * round(n / 2), k) for k, (radius, n) in enumerate(zip(middles, holds, strict=True))]
+    return [ring(radius, even(n), k) for k, (radius, n) in enumerate(zip(middles, holds, strict=True))]
 
 
 def ring(radius: float, n: int, k: int) -> np.ndarray:
