@@ -1,10 +1,10 @@
-"""Two bent current sheets reconnect; without xi the lattice breaks and eats the whole field.
+"""Two bent current sheets decay; without xi the lattice breaks and the field is gone.
 
 Hawley & Stone 1995; Gardiner & Stone 2005. B_y flips at x = 1/2 and 3/2, P = 0.1 (beta = 0.2), and v_x = 0.1 cos pi y
 bends the sheets. No solution is known: a scheme must survive, and turn into heat what the field loses. With
-resistivity the sheets reconnect into islands that merge. Without it nothing reconnects on purpose: neighbours carry
-opposite fields side by side, and the ledger shows what the div B force between them takes. At xi = 0 the tensile
-instability stirs everything, and resistivity eats nine tenths of the field. It costs about 60 s on two cores.
+resistivity the sheets widen evenly. Without it nothing reconnects on purpose: neighbours carry opposite fields side by
+side, shuffled by the force that their div B exerts, and the ledger shows the energy this takes. At xi = 0 the tensile
+instability stirs all of the gas, and resistivity eats nine tenths of the field. It costs about 60 s on two cores.
 
     spmhd run current_sheet --set nx=32
 """

@@ -28,7 +28,7 @@ def expected_angular_momentum() -> float:
 
 
 def test_the_particles_carry_the_mass_and_the_spin_of_the_disc():
-    # mass 1 + 9 (area of the disc + integral of f). Measured at nx = 64 and 128: mass 3e-4 and 1e-6, spin .9 and .2 % off
+    # mass 1 + 9 (area of the disc + integral of f) to 3e-4; the spin is .9 and .2 % low at nx = 64 and 128
     for nx, within in ((64, 0.015), (128, 0.004)):
         scene = load_scene("rotor", nx=nx)["with cleaning"]
         c = {**scene.start(scene.positions), "x": scene.positions}
