@@ -1,9 +1,10 @@
 """MHD rotor: a dense disc spins in a field that brakes it with torsional Alfven waves.
 
 Balsara & Spicer 1999; the first rotor problem of Toth 2000. rho = 10 and v = 20 r inside r = 0.1, light gas at rest
-outside, B along x, P = 1. The wound-up field squeezes the disc into an oblong and carries its angular momentum away;
-inside, the flow still turns as a solid body. Pressures differ by 40 in thin gas next to a strong field (beta down to
-0.1): P must stay positive. Equal masses, so the disc is resolved 3 times better. It costs about 60 s on two cores.
+outside, B along x, P = 1. The wound-up field squeezes the disc into an oblong and carries its spin away: at t = 0.15
+the middle, thinned to rho = 1, turns as a solid body still, but ten times slower. Next to it B^2/2 rises to 2.8 (beta
+0.2): P must stay positive. Cleaning halves h |div B| / |B| and smooths the strongest field. Equal masses, so the disc
+is resolved three times better than the gas around it. It costs about 100 s on two cores.
 
     spmhd run rotor --set nx=64
 """
