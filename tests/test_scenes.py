@@ -14,7 +14,12 @@ SMALL = {  # parameters that make a scene quick, and what it must have kept
     "frozen_field": {"nx": 24, "t_end": 0.1},
     "orszag_tang": {"nx": 32, "t_end": 0.1},
     "blast": {"nx": 32, "t_end": 0.03},
+    "current_sheet": {"nx": 16, "t_end": 0.5},
+    "density_evolution": {"nx": 32, "t_end": 0.03},
+    "field_loop": {"nx": 20, "t_end": 0.25},
+    "kelvin_helmholtz": {"nx": 20, "t_end": 0.2},
     "mhd_blast": {"nx": 32, "t_end": 0.03},
+    "rotor": {"nx": 24, "t_end": 0.03},
     "sod": {"nx": 150, "t_end": 0.05},
     "sound_wave": {"nx": 16, "t_end": 0.2},
 }

@@ -9,6 +9,7 @@ from taichi_spmhd.terms import (
     CullenDehnen,
     DivBSource,
     Induction,
+    PassiveDensity,
     Pressure,
     Resistivity,
     Stress,
@@ -125,6 +126,11 @@ CASES = {
     "viscosity": ((*MHD, Viscosity(0.7, 1.5)), lambda s: s.viscosity(0.7, 1.5)),
     "conductivity": ((*MHD, Conductivity(0.6)), lambda s: s.conductivity(0.6)),
     "resistivity": ((*MHD, Resistivity(0.8)), lambda s: s.resistivity(0.8)),
+    "passenger": ((Pressure(), PassiveDensity()), lambda s: {**s.pressure(s.c["P"]), "rho_evolved": s.drho}),
+    "passenger without Omega": (
+        (Pressure(), PassiveDensity(Omega=False)),
+        lambda s: {**s.pressure(s.c["P"]), "rho_evolved": s.Omega * s.drho},
+    ),
     "cleaning": ((*MHD, Cleaning(0.4, 1.1)), lambda s: s.cleaning(0.4, 1.1)),
 }
 

@@ -5,6 +5,7 @@ from .cleaning import Cleaning
 from .conductivity import Conductivity
 from .divb_source import DivBSource
 from .induction import Induction
+from .passive_density import PassiveDensity
 from .pressure import Pressure
 from .repulsion import Repulsion
 from .resistivity import Resistivity
@@ -24,6 +25,7 @@ __all__ = [
     "LogLinearXi",
     "MinimalXi",
     "Part",
+    "PassiveDensity",
     "PhantomXi",
     "Pressure",
     "Repulsion",
