@@ -183,6 +183,20 @@ def check_reference(scene: Scene) -> None:
         )
 
 
+SHARED = {"b", "u"}  # sums that many add to: the rate of B/rho, and heat
+
+
+def check_sums(scene: Scene) -> None:
+    """Sums of one name would add up into one number: each must belong to one part."""
+    for kind in ("sums", "gathers"):
+        owner = {}
+        for part in scene.parts:
+            for name in set(getattr(part, kind)) - SHARED:
+                other = type(owner.setdefault(name, part)).__name__
+                if owner[name] is not part:
+                    raise InputError(f"terms: {other} and {type(part).__name__} both sum {name}; rename one of the two")
+
+
 def check_members(scene: Scene) -> None:
     """Every member a part reads must be given, made or evolved by somebody; every scene needs a signal speed."""
     there = GIVEN | {name for part in scene.parts for name in (*part.makes, *part.evolves, *part.keeps)}
@@ -195,6 +209,7 @@ def check_members(scene: Scene) -> None:
                 raise InputError(f"{type(part).__name__} reads {name}, which nothing in this scene provides: {cure}")
     if "vw" not in there or not any("v" in part.evolves for part in scene.parts):
         raise InputError("terms: nothing moves this gas; list Pressure() or, with a magnetic field, Stress()")
+    check_sums(scene)
     makers = [name for part in scene.parts for name in part.makes]
     if len(set(makers)) < len(makers):
         clash = sorted({name for name in makers if makers.count(name) > 1})

@@ -15,6 +15,7 @@ from taichi_spmhd.terms import (
     Conductivity,
     DivBSource,
     Induction,
+    PassiveDensity,
     Pressure,
     Resistivity,
     Stress,
@@ -54,6 +55,29 @@ def test_the_rate_of_E_is_that_of_its_parts(simulate, disordered):
     assert "u" not in found and close(other["u"], c["u"])
     field = dot(c["B"], rates["b"]) + dot(c["B"], c["B"]) / (2 * c["rho"]) * compression(base)
     assert close(found["E"], dot(c["v"], rates["v"]) + rates["u"] + field)
+
+
+def test_all_other_forms_together_are_still_the_same_equations(simulate, disordered):
+    """Each sums the compression for itself: together they must not count it twice."""
+    terms = (Stress(), Induction(form="B"), *REST, PassiveDensity())
+    base, other = disordered(*ALL), simulate(disordered_scene(*terms, energy=Total()))
+    c, rates, found = base.columns(), base.rates(), other.rates()
+    closing = compression(base)
+    field = dot(c["B"], rates["b"]) + dot(c["B"], c["B"]) / (2 * c["rho"]) * closing
+    assert close(found["B"], c["rho"][:, None] * rates["b"] + c["B"] * closing[:, None])
+    assert close(found["E"], dot(c["v"], rates["v"]) + rates["u"] + field)
+    assert close(found["rho_evolved"], c["rho"] * closing)
+
+
+def test_two_terms_that_sum_under_one_name_are_refused():
+    @dataclass(frozen=True)
+    class Twin(Term):
+        """S again"""
+
+        sums = {"S": real}
+
+    with pytest.raises(InputError, match="both sum S"):
+        disordered_scene(*ALL, Twin())
 
 
 @pytest.mark.parametrize("xi", [0.0, 0.5, 1.0])

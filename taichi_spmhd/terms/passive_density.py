@@ -19,7 +19,7 @@ class PassiveDensity(Term):
 
     Omega: bool = True
     reads = {"v": vec3, "rho": real, "Omega": real}
-    makes, evolves, sums = {"rho_error": real}, {"rho_evolved": real}, {"closing": real}
+    makes, evolves, sums = {"rho_error": real}, {"rho_evolved": real}, {"closing_evolved": real}
 
     def __post_init__(self):
         if not isinstance(self.Omega, bool):
@@ -35,11 +35,11 @@ class PassiveDensity(Term):
 
     @ti.func
     def pair(self, i, j, w, now):
-        return ti.Struct(closing=(i.v - j.v).dot(w.e) * w.Gi)
+        return ti.Struct(closing_evolved=(i.v - j.v).dot(w.e) * w.Gi)
 
     @ti.func
     def after(self, i, total, now):
-        rate = i.rho * i.rho * total.closing
+        rate = i.rho * i.rho * total.closing_evolved
         if ti.static(not self.Omega):
             rate *= i.Omega  # w.Gi holds 1/Omega
         return ti.Struct(rho_evolved=rate)
