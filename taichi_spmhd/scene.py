@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from itertools import combinations
 from pathlib import Path
 
 import numpy as np
@@ -163,10 +164,11 @@ def check(scene: Scene) -> None:
     twice = {name for name in names if names.count(name) > 1}
     if twice:
         raise InputError(f"terms: {', '.join(sorted(twice))} listed twice; each effect once")
-    for one in scene.terms:
-        for other in scene.terms:
-            if one is not other and isinstance(one, type(other)):
-                raise InputError(f"terms: {type(one).__name__} is a {type(other).__name__} already; list one of them")
+    for one, other in combinations(scene.terms, 2):
+        shared = [kind for kind in type(one).__mro__ if issubclass(kind, Term) and isinstance(other, kind)]
+        if shared[:-1]:  # more than being a Term
+            both = f"{type(one).__name__} and {type(other).__name__}"
+            raise InputError(f"terms: {both} are both a {shared[0].__name__}; list one of them")
     check_reference(scene)
     check_members(scene)
 

@@ -1,10 +1,13 @@
 """The effects a scene can list, one file each."""
 
+from .balsara import Balsara
 from .base import Choice, Part, Term
 from .cleaning import Cleaning
 from .conductivity import Conductivity
 from .divb_source import DivBSource
 from .induction import Induction
+from .lecture_viscosity import LectureViscosity
+from .morris_monaghan import MorrisMonaghan
 from .passive_density import PassiveDensity
 from .pressure import Pressure
 from .repulsion import Repulsion
@@ -12,18 +15,22 @@ from .resistivity import Resistivity
 from .stress import Stress
 from .stress_shift import StressShift
 from .switch import CullenDehnen
+from .tricco_price import TriccoPrice2013
 from .viscosity import Viscosity
 from .xi_rules import LogLinearXi, MinimalXi, PhantomXi, XiRule, xi_of
 
 __all__ = [
+    "Balsara",
     "Choice",
     "Cleaning",
     "Conductivity",
     "CullenDehnen",
     "DivBSource",
     "Induction",
+    "LectureViscosity",
     "LogLinearXi",
     "MinimalXi",
+    "MorrisMonaghan",
     "Part",
     "PassiveDensity",
     "PhantomXi",
@@ -33,6 +40,7 @@ __all__ = [
     "Stress",
     "StressShift",
     "Term",
+    "TriccoPrice2013",
     "Viscosity",
     "XiRule",
     "xi_of",
