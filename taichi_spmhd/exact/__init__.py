@@ -1,6 +1,8 @@
 """Exact solutions to measure runs against: pure numpy, no Taichi."""
 
+from .mhd_riemann import mhd_tube, plateaus
+from .mhd_tubes import TUBES, Tube
 from .riemann import Star, sod, star_state
 from .waves import alfven_wave, direction, frame, sound_wave
 
-__all__ = ["Star", "alfven_wave", "direction", "frame", "sod", "sound_wave", "star_state"]
+__all__ = ["TUBES", "Star", "Tube", "alfven_wave", "direction", "frame", "mhd_tube", "plateaus", "sod", "sound_wave", "star_state"]
