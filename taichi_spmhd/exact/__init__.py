@@ -3,6 +3,6 @@
 from .mhd_riemann import mhd_tube, plateaus
 from .mhd_tubes import TUBES, Tube
 from .riemann import Star, sod, star_state
-from .waves import alfven_wave, direction, frame, sound_wave
+from .waves import alfven_wave, direction, frame, sound_pulse, sound_wave
 
-__all__ = ["TUBES", "Star", "Tube", "alfven_wave", "direction", "frame", "mhd_tube", "plateaus", "sod", "sound_wave", "star_state"]
+__all__ = ["TUBES", "Star", "Tube", "alfven_wave", "direction", "frame", "mhd_tube", "plateaus", "sod", "sound_pulse", "sound_wave", "star_state"]
