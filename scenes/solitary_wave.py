@@ -5,7 +5,7 @@ halves that keep their shape and run at +-c_s. At beta = 0.1 xi = 1/2 does so wi
 along B is P + B^2/2 instead of P, and waves of a few spacings run up to 2.4 times too fast: a train of ripples ahead of
 the pulse. With xi = 0 it is negative and the gas clumps. Nothing dissipates, but for the viscosity that lets xi = 0 survive. It costs about 10 s on two cores.
 
-    spmhd run solitary_wave --set nx=128 beta=0.01
+    spmhd run solitary_wave --set nx=192 beta=0.01
 """
 
 from math import sqrt
@@ -13,12 +13,12 @@ from math import sqrt
 from taichi_spmhd import Adiabatic, Picture, QuinticSpline, Scene, exact, hexagonal
 from taichi_spmhd.terms import DivBSource, Induction, Stress, Viscosity
 
-HALF, ROWS = 2.0, 20  # half the length of the box; rows across: room for the kernels of clumped gas
+HALF, ROWS = 2.0, 16  # half the length of the box; rows across: room for the kernels of clumped gas
 RHO, P, GAMMA = 1.0, 1.0, 5 / 3
 C_S = sqrt(GAMMA * P / RHO)
 
 
-def scenes(nx: int = 64, beta: float = 0.1, amplitude: float = 0.01, width: float = 3.0, t_end: float = 0.6):
+def scenes(nx: int = 96, beta: float = 0.1, amplitude: float = 0.01, width: float = 3.0, t_end: float = 0.6):
     """amplitude: of the pulse in v_x; width: exp(-(x/w)^2) with w in smoothing lengths; beta = 2P/B^2."""
     dx = 2 * HALF / nx
     box = ((-HALF, HALF), (0.0, ROWS * sqrt(0.75) * dx))
