@@ -1,10 +1,10 @@
-"""Brio & Wu's tube: five waves, one of them compound, which codes find and the exact solution does not have.
+"""Brio & Wu's tube: a compound wave that codes find and theory shuns.
 
-Brio & Wu 1988, JCP 75, 400: states rho 1, P 1, B_y 1 and 0.125, 0.1, -1, B_x = 0.75, gamma = 2, t = 0.1. From the left: a
-fast rarefaction, the slow compound wave (a shock with a rarefaction behind it) where B_y passes zero, the contact, a slow
-shock, a fast rarefaction. B_y could also turn through a rotation and a slow shock; codes that capture shocks, on grids
-and with particles, give the compound wave, and so the reference is a grid run of 8192 cells. It costs about 10 s on two
-cores.
+Brio & Wu 1988, JCP 75, 400: states rho 1, P 1, B_y 1 and 0.125, 0.1, -1, B_x = 0.75, gamma = 2, t = 0.1. From the
+left: a fast rarefaction, the slow compound wave (a shock with a rarefaction behind it) where B_y passes zero, the
+contact, a slow shock, a fast rarefaction. B_y could also turn through a rotation and a slow shock; codes that capture
+shocks, on grids and with particles, give the compound wave (the peak of rho at x = -0.03), and so the reference of the
+tests is a grid run of 8192 cells. It costs about 5 s on two cores.
 
     spmhd run brio_wu --set show=B_y
 """
@@ -19,7 +19,14 @@ from taichi_spmhd.terms import Cleaning, Conductivity, DivBSource, Induction, Re
 LEFT, RIGHT = (1.0, 1.0, 1.0), (0.125, 0.1, -1.0)  # rho, P, B_y
 B_X, GAMMA = 0.75, 2.0
 ROWS, END = 34, 0.1  # rows of the dense side in 2-D; thickness of the frozen ends
-LIMITS = {"rho": (0.0, 1.1), "P": (0.0, 1.1), "v_x": (-0.4, 0.8), "v_y": (-1.8, 0.2), "B_x": (0.6, 0.9), "B_y": (-1.2, 1.2)}
+LIMITS = {
+    "rho": (0.0, 1.1),
+    "P": (0.0, 1.1),
+    "v_x": (-0.4, 0.8),
+    "v_y": (-1.8, 0.2),
+    "B_x": (0.6, 0.9),
+    "B_y": (-1.2, 1.2),
+}
 
 
 def scenes(nx: int = 800, dim: Literal[1, 2] = 1, xi: float = 0.5, show: Literal[tuple(LIMITS)] = "rho"):

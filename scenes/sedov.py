@@ -1,8 +1,9 @@
 """Sedov's explosion: a point of energy drives a shock whose radius grows as a power of time.
 
-Sedov 1959: rho = 1, energy E = 1 in the kernel of one place, hardly any pressure elsewhere. R = xi0 (E t^2/rho)^(1/(d+2));
-exact.sedov_radius has xi0. It runs until R = 0.4. Look at the thin shell, exactly (gamma + 1)/(gamma - 1) = 4 times
-denser than the gas ahead, smeared here over a kernel. It costs about 10 s on two cores, about 60 s in 3-D.
+Sedov 1959: rho = 1, energy E = 1 within a kernel of the centre, hardly any pressure elsewhere. The shock is at
+R = xi0 (E t^2/rho)^(1/(d+2)), exact.sedov_radius; the run ends where that is 0.4. Look at the thin shell, exactly
+(gamma + 1)/(gamma - 1) = 4 times denser than the gas ahead, smeared here over a kernel. It costs about 10 s on two
+cores.
 
     spmhd run sedov --set nx=64
     spmhd run sedov --set dim=3 nx=40

@@ -19,7 +19,9 @@ def conserved(state, tube):
     Pt, E = P + 0.5 * B @ B, P / (tube.gamma - 1) + 0.5 * rho * v @ v + 0.5 * B @ B
     push = rho * v[0] * v - B[0] * B + np.array([Pt, 0, 0])
     electric = v[0] * B[1:] - B[0] * v[1:]
-    return np.array([rho, *(rho * v), *B[1:], E]), np.array([rho * v[0], *push, *electric, (E + Pt) * v[0] - B[0] * v @ B])
+    return np.array([rho, *(rho * v), *B[1:], E]), np.array(
+        [rho * v[0], *push, *electric, (E + Pt) * v[0] - B[0] * v @ B]
+    )
 
 
 @pytest.mark.parametrize("name", SOLVED)
@@ -64,7 +66,7 @@ def test_at_time_zero_a_tube_is_its_two_outer_states():
 
 
 def test_a_tube_without_a_solution_says_which_have_one():
-    with pytest.raises(InputError, match="rj1b.*rj1a, rj2a"):
+    with pytest.raises(InputError, match=r"rj1b.*rj1a, rj2a"):
         exact.mhd_tube(np.zeros(2), 0.1, "rj1b")
 
 
@@ -83,8 +85,9 @@ def run(tube: str, nx: int, label: str = "without cleaning", **numbers):
 
 
 def wrong(have, should) -> float:
-    """The largest error of a plateau: rho and P relative, v and B in units of their magnitude."""
-    scale = np.array([should[0], should[1], *[np.linalg.norm(should[2:5])] * 3, *[np.linalg.norm(should[5:])] * 3])
+    """The largest error of a plateau: rho and P relative, v and B in units of their magnitude (of 1 in gas at rest)."""
+    v, B = np.linalg.norm(should[2:5]) or 1.0, np.linalg.norm(should[5:])
+    scale = np.array([should[0], should[1], v, v, v, B, B, B])
     return float(np.abs((have - should) / scale).max())
 
 
@@ -132,8 +135,53 @@ def test_other_solved_tubes_agree(tube, within):
 @pytest.mark.slow
 @pytest.mark.parametrize("tube", sorted(set(exact.TUBES) - set(SOLVED)))
 def test_tubes_without_a_solution_run(tube):
-    for scene in load_scene("shock_tubes", tube=tube, nx=300).values():
+    # the thin sides of rj1b and rj2b have a tenth of the density: below nx = 400 their frozen ends are too short
+    for scene in load_scene("shock_tubes", tube=tube, nx=450).values():
         with Simulation(scene) as sim:
             summary = sim.run().summary()
             assert summary["floors"] == 0
             assert np.isfinite(sim["v"]).all()
+
+
+GRID = {"rho": "rho", "P": "p", "v_x": "vx", "v_y": "vy", "B_y": "By"}
+
+
+def brio_wu(nx: int):
+    """Normalised L1 errors against the grid run within |x| < 0.45; peaks of the compound wave in run and grid."""
+    with Simulation(load_scene("brio_wu", nx=nx)["without cleaning"]) as sim:
+        c = sim.run().columns()
+    x, ours = (
+        c["x"][:, 0],
+        {"rho": c["rho"], "P": c["P"], "v_x": c["v"][:, 0], "v_y": c["v"][:, 1], "B_y": c["B"][:, 1]},
+    )
+    inside = np.abs(x) < 0.45
+    with np.load(REFERENCE / "athena1d_bw_1024.npz") as grid:
+        there = {key: np.interp(x[inside], grid["x"], grid[name]) for key, name in GRID.items()}
+        gx, g_rho = grid["x"], grid["rho"]
+    errors = {key: np.abs(ours[key][inside] - f).mean() / np.abs(f).mean() for key, f in there.items()}
+    return errors, peak(x, c["rho"]), peak(gx, g_rho)
+
+
+def peak(x, rho) -> tuple[float, float]:
+    """Place and height of the compound wave: the largest density in -0.06 < x < 0.02."""
+    near = np.flatnonzero(np.abs(x + 0.02) < 0.04)
+    k = near[np.argmax(rho[near])]
+    return float(x[k]), float(rho[k])
+
+
+def test_brio_wu_gives_the_compound_wave_of_the_grid_run():
+    # Athena++ with 8192 cells. Measured .011 .013 .070 .075 .017: v_x and v_y are large only in thin waves. The peak is
+    # at -.0283 here and -.0288 on the grid, .820 and .788 high; the other solution has no peak, .70 on both sides
+    errors, (at, height), (grid_at, grid_height) = brio_wu(400)
+    assert errors["rho"] < 0.015
+    assert errors["P"] < 0.02
+    assert errors["B_y"] < 0.025
+    assert max(errors["v_x"], errors["v_y"]) < 0.1
+    assert at == pytest.approx(grid_at, abs=0.003)
+    assert height == pytest.approx(grid_height, rel=0.06)
+
+
+@pytest.mark.slow
+def test_brio_wu_converges_to_the_grid_run():
+    (coarse, *_), (fine, *_) = brio_wu(400), brio_wu(1200)
+    assert all(fine[key] < 0.6 * coarse[key] for key in fine)

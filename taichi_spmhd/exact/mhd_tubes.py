@@ -1,8 +1,8 @@
 """The constant states of MHD shock tubes: what lies between the waves, where somebody has solved the tube exactly.
 
-States are (rho, P, v_x, v_y, v_z, B_y, B_z) from left to right in units with mu0 = 1 (a literature value X/sqrt(4 pi) is
-used as that number); B_x and gamma are uniform. gamma = 1 is an isothermal gas, P = c^2 rho. All tubes start with a
-step at x = 0.
+States are (rho, P, v_x, v_y, v_z, B_y, B_z) from left to right in units with mu0 = 1 (a literature value X/sqrt(4 pi)
+is used as that number); B_x and gamma are uniform. gamma = 1 is an isothermal gas, P = c^2 rho. All tubes start with
+a step at x = 0.
 """
 
 from math import pi, sqrt

@@ -1,6 +1,6 @@
 """Sedov's explosion: a strong shock from a point, r = R(t) lambda, R = xi0 (E t^2/rho)^(1/(d+2)).
 
-With v = R' U, rho = rho0 G, P = rho0 R'^2 Z as functions of lambda and a = R R''/R'^2 = -d/2 the equations of gas become
+With v = R' U, rho = rho0 G, P = rho0 R'^2 Z as functions of l = lambda, and a = R R''/R'^2 = -d/2, gas obeys
 
     (U - l) G'/G = -(U' + (d-1) U/l),   a U + (U - l) U' + Z'/G = 0,   (U - l) (Z'/Z - gamma G'/G) + 2 a = 0
 
@@ -24,11 +24,13 @@ def sedov(x, t: float, gamma: float = 5 / 3, energy: float = 1.0, rho: float = 1
     """
     x = np.asarray(x, dtype=float)
     dim, r = x.shape[1], np.linalg.norm(x, axis=1)
-    R = max(sedov_radius(t, gamma, dim, energy, rho), 1e-300)
+    R = sedov_radius(t, gamma, dim, energy, rho)
     speed = 2 / (dim + 2) * R / t if t > 0 else 0.0
+    scaled = r / R if t > 0 else np.full(len(r), np.inf)  # at t = 0 all gas is ahead
     at, U, G, Z = profile(gamma, dim)[::-1].T
-    U, G, Z = (np.where(r < R, np.interp(r / R, at, f), ahead) for f, ahead in ((U, 0.0), (G, 1.0), (Z, 0.0)))
-    U = np.where(r < at[0] * R, U * r / (at[0] * R), U)  # linear through the centre
+    inside = scaled < 1
+    U, G, Z = (np.where(inside, np.interp(scaled, at, f), ahead) for f, ahead in ((U, 0.0), (G, 1.0), (Z, 0.0)))
+    U = U * np.minimum(scaled / INNERMOST, 1.0)  # linear through the centre
     v = (speed * U / np.maximum(r, 1e-300))[:, None] * x
     return {"rho": rho * G, "v": np.pad(v, ((0, 0), (0, 3 - dim))), "P": rho * speed**2 * Z}
 

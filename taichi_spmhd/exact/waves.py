@@ -77,9 +77,9 @@ def sound_pulse(
     B_x: float = 0.0,
     period: float = 4.0,
 ) -> dict:
-    """v = (f(x - ct) + f(x + ct))/2,   drho/rho = (f(x - ct) - f(x + ct))/(2c),   f = A exp(-(x/w)^2),   c^2 = gamma P/rho
+    """v = (f(x - ct) + f(x + ct))/2,   drho/rho = (f(x - ct) - f(x + ct))/(2c),   f = A exp(-(x/w)^2)
 
-    D'Alembert's two halves of a pulse of v_x in gas at rest, right to first order in A/c. A field along x is not felt
+    D'Alembert's two halves of a pulse of v_x in gas at rest, c^2 = gamma P/rho, to first order in A/c. A field along x is not felt
     and stays uniform. Periodic around x = 0; x: (N,) along x or (N, d). Returns rho, P (N,) and v, B (N, 3). Raises
     InputError for rho, P, width or period <= 0.
     """
