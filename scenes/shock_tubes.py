@@ -3,9 +3,10 @@
 Lecture pp. 31-33; Ryu & Jones 1995 (rj1a ... rj4d are their numbers), Dai & Woodward 1994, Balsara 1998. The default,
 rj1a, is the lecture's colliding flow: gas at v_x = +-10 ends in two fast shocks, a slow rarefaction and a slow shock.
 Look at v_y behind the right shock, exactly -0.388: it is off by 0.4, 4 and 8 % with xi = 0, 1/2 and 1, since the div B
-source does not conserve momentum. xi = 1/2 is the least that keeps every tube here stable (beta is 0.5 in the gas that
-flows in). In 1-D B_x stays uniform by itself. dim=2 is a hexagonal strip, periodic across: squeezed by the shocks its
-particles rearrange, B_x is no longer uniform and cleaning has something to do. It costs about 20 s on two cores.
+source does not conserve momentum. xi = 1/2 is the least that is stable whatever beta (0.5 in the gas from the right,
+where xi = 0 is not). In 1-D B_x stays uniform by itself. dim=2 is a hexagonal strip, periodic across: squeezed by the
+shocks its particles rearrange, B_x is no longer uniform and cleaning has something to do. It costs about 20 s on two
+cores.
 
     spmhd run shock_tubes --set tube=rj2a show=B_y
     spmhd run shock_tubes --set dim=2 nx=300 show=B_x

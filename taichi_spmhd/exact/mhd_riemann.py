@@ -103,7 +103,7 @@ def magnetosonic(u: np.ndarray, wave: str, tube: Tube) -> float:
 
 
 def field(u: np.ndarray, wave: str, tube: Tube) -> np.ndarray:
-    """dU/d ln rho: dP = gamma P, dv_x = +-c, dB_y = B_y c^2/(c^2 - b_x^2), dv_y = -+ c b_x b_y/(c^2 - b_x^2), same for z"""
+    """dU/d ln rho: dP = gamma P, dv_x = +-c, dB_y = B_y c^2/(c^2 - b_x^2), dv_y = -+ c b_x b_y/(c^2 - b_x^2); z as y"""
     c = magnetosonic(u, wave, tube)
     along = side(wave) * c
     bx = tube.B_x / sqrt(u[0])

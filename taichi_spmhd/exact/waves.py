@@ -79,9 +79,9 @@ def sound_pulse(
 ) -> dict:
     """v = (f(x - ct) + f(x + ct))/2,   drho/rho = (f(x - ct) - f(x + ct))/(2c),   f = A exp(-(x/w)^2)
 
-    D'Alembert's two halves of a pulse of v_x in gas at rest, c^2 = gamma P/rho, to first order in A/c. A field along x is not felt
-    and stays uniform. Periodic around x = 0; x: (N,) along x or (N, d). Returns rho, P (N,) and v, B (N, 3). Raises
-    InputError for rho, P, width or period <= 0.
+    D'Alembert's two halves of a pulse of v_x in gas at rest, c^2 = gamma P/rho, to first order in A/c. A field along x
+    is not felt and stays uniform. Periodic around x = 0; x: (N,) along x or (N, d). Returns rho, P (N,) and v, B
+    (N, 3). Raises InputError for rho, P, width or period <= 0.
     """
     if not (rho > 0 and pressure > 0 and width > 0 and period > 0):
         raise InputError("sound_pulse: rho, pressure, width and period must be positive")
