@@ -1,4 +1,4 @@
-"""Noh's implosion: cold gas falls onto the axis and stops behind a shock that walks outwards.
+"""Noh's implosion: cold gas falls inwards and stops behind a shock.
 
 Noh 1987, JCP 72, 78: rho = 1, v_r = -1, P = 1e-6, gamma = 5/3. Exact: behind R = t/3 the gas is at rest with rho = 16
 (64 in 3-D), ahead of it rho = 1 + t/r (squared in 3-D). Look at the centre: viscosity heats too much there, and
