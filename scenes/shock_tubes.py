@@ -106,7 +106,7 @@ def start(tube: exact.Tube, mass: float):
 
 def picture(tube: exact.Tube, show: str) -> Picture:
     """One quantity, with room for all its states."""
-    known = [tube.B_x - 0.1, tube.B_x + 0.1] if show == "B_x" else [state[COLUMNS[show]] for state in tube.states]
+    known = [0.8 * tube.B_x, 1.2 * tube.B_x] if show == "B_x" else [state[COLUMNS[show]] for state in tube.states]
     room = 0.15 * (max(known) - min(known)) or 0.1
     member, _, axis = show.partition("_")
     return Picture(member, axis="xyz".index(axis) if axis else None, limits=(min(known) - room, max(known) + room))
