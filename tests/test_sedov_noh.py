@@ -92,14 +92,15 @@ def test_sedovs_shock_stands_one_kernel_outside_of_its_place():
 
 
 @pytest.mark.slow
-def test_sedovs_shock_converges_to_first_order_in_2_d():
-    # measured 0.418, 0.4086
+def test_sedovs_shock_comes_nearer_to_its_place_when_refined():
+    # measured 0.4132 and 0.4081, order 0.7; without noise 0.4181 and 0.4086, first order, but bulged along the rows
     coarse, fine = (sedov_radius(nx) - 0.4 for nx in (64, 128))
-    assert 0 < fine < 0.6 * coarse
+    assert 0 < fine < 0.7 * coarse
 
 
 @pytest.mark.slow
 def test_sedovs_shock_stands_within_one_and_a_half_spacings_in_3_d():
+    # measured 0.423
     assert 0.4 < sedov_radius(32, dim=3) < 0.4 + 1.5 / 32
 
 
