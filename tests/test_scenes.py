@@ -21,6 +21,11 @@ SMALL = {  # parameters that make a scene quick, and what it must have kept
     "mhd_blast": {"nx": 32, "t_end": 0.03},
     "rotor": {"nx": 24, "t_end": 0.03},
     "sod": {"nx": 150, "t_end": 0.05},
+    "shock_tubes": {"tube": "rj4a", "nx": 240},  # at rest at both ends, so the frozen ends do no work
+    "sedov": {"nx": 32},
+    "noh": {"nx": 24, "t_end": 0.3},
+    "brio_wu": {"nx": 200},
+    "solitary_wave": {"nx": 48, "t_end": 0.2},
     "sound_wave": {"nx": 16, "t_end": 0.2},
 }
 

@@ -1,6 +1,27 @@
 """Exact solutions to measure runs against: pure numpy, no Taichi."""
 
+from .mhd_riemann import mhd_tube, plateaus
+from .mhd_tubes import TUBES, Tube
+from .noh import noh
 from .riemann import Star, sod, star_state
-from .waves import alfven_wave, direction, frame, sound_wave
+from .sedov import sedov, sedov_radius, sedov_time
+from .waves import alfven_wave, direction, frame, sound_pulse, sound_wave
 
-__all__ = ["Star", "alfven_wave", "direction", "frame", "sod", "sound_wave", "star_state"]
+__all__ = [
+    "TUBES",
+    "Star",
+    "Tube",
+    "alfven_wave",
+    "direction",
+    "frame",
+    "mhd_tube",
+    "noh",
+    "plateaus",
+    "sedov",
+    "sedov_radius",
+    "sedov_time",
+    "sod",
+    "sound_pulse",
+    "sound_wave",
+    "star_state",
+]

@@ -66,6 +66,41 @@ def sound_wave(
     return {"rho": rho * (1 + wave), "v": velocity, "P": pressure * (1 + gamma * wave)}
 
 
+def sound_pulse(
+    x,
+    t: float,
+    amplitude: float = 0.01,
+    width: float = 0.1,
+    rho: float = 1.0,
+    pressure: float = 1.0,
+    gamma: float = 5 / 3,
+    B_x: float = 0.0,
+    period: float = 4.0,
+) -> dict:
+    """v = (f(x - ct) + f(x + ct))/2,   drho/rho = (f(x - ct) - f(x + ct))/(2c),   f = A exp(-(x/w)^2)
+
+    D'Alembert's two halves of a pulse of v_x in gas at rest, c^2 = gamma P/rho, to first order in A/c. A field along x
+    is not felt and stays uniform. Periodic around x = 0; x: (N,) along x or (N, d). Returns rho, P (N,) and v, B
+    (N, 3). Raises InputError for rho, P, width or period <= 0.
+    """
+    if not (rho > 0 and pressure > 0 and width > 0 and period > 0):
+        raise InputError("sound_pulse: rho, pressure, width and period must be positive")
+    c, along = sqrt(gamma * pressure / rho), _along(x, np.array([1.0, 0, 0]))
+    right, left = (amplitude * np.exp(-((_nearest(along - s * c * t, period) / width) ** 2)) for s in (1, -1))
+    v, compressed, still = 0.5 * (right + left), (right - left) / (2 * c), np.zeros(len(along))
+    return {
+        "rho": rho * (1 + compressed),
+        "P": pressure * (1 + gamma * compressed),
+        "v": np.stack([v, still, still], axis=-1),
+        "B": np.stack([still + B_x, still, still], axis=-1),
+    }
+
+
+def _nearest(distance, period: float):
+    """The distance to the nearest periodic copy."""
+    return distance - period * np.round(distance / period)
+
+
 def alfven_wave(
     x,
     t: float,
