@@ -22,11 +22,11 @@ from .terms import Choice, Part, Term
 class Scene:
     """Terms add, choices replace.
 
-    box: lengths or intervals per axis; positions: (N, d); start(x) -> {"rho", "v", "P" or "u" or, for
-    LocallyIsothermal, "cs", "B", "psi", "mass"}, arrays (N,) or (N, 3) or numbers; terms: the effects; eos, kernel, density, energy, stepper, boundary: one choice
-    each. exact(x, t) -> {member: array}: the solution where there is one, `measure` the member whose error is quoted;
-    reference: path of a stored map, kept with the scene (no command reads it yet). Without "mass" the mass is rho
-    times volume / N.
+    box: lengths or intervals per axis; positions: (N, d); start(x) -> {"rho", "v", "P" or "u" (LocallyIsothermal:
+    "cs"), "B", "psi", "mass"}, arrays (N,) or (N, 3) or numbers; terms: the effects; eos, kernel, density, energy,
+    stepper, boundary: one choice each. exact(x, t) -> {member: array}: the solution where there is one, `measure` the
+    member whose error is quoted; reference: path of a stored map, kept with the scene (no command reads it yet).
+    Without "mass" the mass is rho times volume / N.
     """
 
     box: Box

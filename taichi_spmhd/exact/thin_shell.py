@@ -33,13 +33,18 @@ def thin_shell(t, hot: tuple = (0.01, 10.0), cold: tuple = (1.0, 0.1), X0: float
     (rho_h, c_h), (rho_c, c_c) = hot, cold
     P_0, P_c, times = rho_h * c_h**2, rho_c * c_c**2, np.asarray(t, float)
     if not (rho_c > 0 and X0 > 0 and P_0 > P_c > 0):
-        raise InputError("thin_shell: densities, sound speeds and X0 must be positive and the hot gas at higher pressure")
+        raise InputError(
+            "thin_shell: densities, sound speeds and X0 must be positive and the hot gas at higher pressure"
+        )
     if not (times >= 0).all():
         raise InputError("thin_shell: the shell starts at t = 0, give times from there on")
 
     def speed(s):
         q = s / X0
-        swept = np.where(q > 1e-3, q - np.log1p(q), q**2 * (1 / 2 - q / 3 + q**2 / 4 - q**3 / 5)) / np.maximum(q, 1e-30) ** 2
+        swept = (
+            np.where(q > 1e-3, q - np.log1p(q), q**2 * (1 / 2 - q / 3 + q**2 / 4 - q**3 / 5))
+            / np.maximum(q, 1e-30) ** 2
+        )
         return np.sqrt(np.maximum(2 * P_0 * np.where(q > 0, swept, 0.5) - P_c, 0.0) / rho_c)
 
     s, dt = np.zeros_like(times), times / STEPS
@@ -55,3 +60,24 @@ def step(rate, s: np.ndarray, dt: np.ndarray) -> np.ndarray:
     second = rate(s + 0.5 * dt * first)
     third = rate(s + 0.5 * dt * second)
     return dt / 6 * (first + 2 * second + 2 * third + rate(s + dt * third))
+
+
+def shell_profile(x, t: float, hot: tuple = (0.01, 10.0), cold: tuple = (1.0, 0.1), X0: float = 0.2) -> dict:
+    """rho, v and P at positions x, (N,) or (N, d), at time t: hot gas, the shell it pushes, and what lies ahead.
+
+    Hot gas expands evenly, v = x dX/dt / X. In the shell P rises from P_h to that behind the shock, in proportion to
+    the mass passed (it is braked as one body), so rho = P/c_c^2 rises exponentially; ahead all is at rest.
+    """
+    x = np.asarray(x, float)
+    place = x if x.ndim == 1 else x[:, 0]
+    shell = thin_shell(t, hot, cold, X0)
+    c2, rise = cold[1] ** 2, max(float(shell.P_shock - shell.P), 0.0)
+    swept = cold[0] * float(shell.X - X0)
+    scale = swept * c2 / rise if rise * swept > 0 else np.inf  # c^2 / deceleration: the scale height of the shell
+    width = scale * np.log(shell.P_shock / shell.P) if np.isfinite(scale) else 0.0
+    depth = place - shell.X
+    inside, shocked = depth < 0, (depth >= 0) & (depth < width)
+    P = np.select([inside, shocked], [shell.P, shell.P * np.exp(np.clip(depth, 0, width) / scale)], cold[0] * c2)
+    rho = np.select([inside, shocked], [hot[0] * X0 / shell.X, P / c2], cold[0])
+    v = np.select([inside, shocked], [shell.v * place / shell.X, shell.v], 0.0)
+    return {"rho": rho, "P": P, "v": v if x.ndim == 1 else np.stack([v, 0 * v, 0 * v], axis=1)}
