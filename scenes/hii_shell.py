@@ -1,58 +1,63 @@
-"""An HII region drives a thin shell: P runs smoothly through the contact at which rho jumps ten thousandfold.
+"""An HII region drives a thin shell: P passes smoothly through the contact where rho jumps two thousandfold.
 
-Lecture p. 40; Iwasaki, Tsuribe & Inutsuka 2011, simplified. Hot gas (rho 0.01, c 10) left of x = 0.2 pushes cold gas (1,
-0.1) before it; both stay isothermal, so the cold gas piles up behind its shock a hundred times denser. One spacing
-everywhere: the masses jump a hundredfold, and so does rho, while P is continuous. By volume the contact follows the
-thin-shell solution (the line). By mass the last hot particle counts a heavy neighbour as its own density: fifty times
-too high a pressure tears a hole. It costs about 20 s on two cores.
+Lecture p. 40; after Iwasaki, Tsuribe & Inutsuka 2011, simplified. Hot gas left of x = 0.2 (P = 1) pushes cold gas (rho
+1, c 0.1) before it. Both stay isothermal, so the cold gas piles up a hundred times denser between its shock and the
+contact; the line is the thin-shell solution. Masses jump with rho and space is shared out, so no particle feels that
+its neighbour is a thousand times heavier. By mass the last hot particle counts a heavy neighbour as its own density: its
+pressure is wrong from the first step on. It costs about 60 s on two cores.
 
-    spmhd run hii_shell
+    spmhd run hii_shell --variant "density by volume"
 """
-
-from typing import Literal
 
 import numpy as np
 
 from taichi_spmhd import (
     Boundary,
     Frozen,
+    InputError,
     LocallyIsothermal,
-    Periodic,
     Picture,
     Reflecting,
     Scene,
     SumMass,
     SumVolume,
     exact,
-    hexagonal,
     line,
 )
 from taichi_spmhd.terms import Pressure, Viscosity
 
-LENGTH, X0 = 1.2, 0.2  # a wall at 0, frozen gas at the far end
-HOT, COLD = (0.01, 10.0), (1.0, 0.1)  # rho, c
-ROWS = 12  # of the strip: two supports of the expanded hot gas must fit
+LENGTH, X0, P_HOT = 1.2, 0.2, 1.0  # a wall at 0, frozen gas at the far end
+COLD = (1.0, 0.1)  # rho, c
+STILL = 8  # spacings of frozen gas
 
 
-def scenes(nx: int = 360, dim: Literal[1, 2] = 1, t_end: float = 0.5):
-    """nx: particles along x; dim=2: a strip, periodic across."""
-    dx = LENGTH / nx
-    box = (LENGTH,) if dim == 1 else (LENGTH, np.sqrt(0.75) * dx * ROWS)
+def scenes(nx: int = 84, finer: int = 50, c_hot: float = 5.0, t_end: float = 0.5):
+    """nx: cold particles along the whole length. finer: how many times closer the hot ones stand at the start.
+
+    The shell is compressed P/0.01 times and the hot gas expands: with finer = 100 the spacings of both stay equal at
+    the contact, with 50 they differ by two, with 1 (masses as rho at the start, 100 times with c_hot=10) by a hundred.
+    """
+    if not (nx >= 24 and 1 <= finer <= 200 and 2 <= c_hot <= 50):
+        raise InputError("hii_shell: nx must be at least 24, finer lie in 1..200 and c_hot in 2..50")
+    hot = (P_HOT / c_hot**2, c_hot)
+    few = round(nx * X0 / LENGTH)
+    x = np.concatenate([line(((0.0, X0),), few * finer), line(((X0, LENGTH),), nx - few)])
+    volume = np.where(x < X0, X0 / (few * finer), (LENGTH - X0) / (nx - few))[:, 0]
 
     def start(x):
-        hot = x[:, 0] < X0
-        return {"rho": np.where(hot, HOT[0], COLD[0]), "cs": np.where(hot, HOT[1], COLD[1])}
+        rho, cs = (np.where(x[:, 0] < X0, *sides) for sides in zip(hot, COLD, strict=True))
+        return {"rho": rho, "cs": cs, "mass": rho * volume}
 
     by_volume = Scene(
-        box=box,
-        positions=line(box, nx) if dim == 1 else hexagonal(box, nx),
+        box=(LENGTH,),
+        positions=x,
         start=start,
         eos=LocallyIsothermal(),
         density=SumVolume(),
-        boundary=Boundary(x=(Reflecting(), Frozen(8 * dx)), y=Periodic()),
+        boundary=Boundary(x=(Reflecting(), Frozen(STILL * LENGTH / nx))),
         terms=(Pressure(), Viscosity()),
         t_end=t_end,
-        exact=lambda x, t: exact.shell_profile(x, t, HOT, COLD, X0),
+        exact=lambda x, t: exact.shell_profile(x, t, hot, COLD, X0),
         measure="P",
         picture=Picture("P", limits=(0.005, 2.0), log=True),
     )
