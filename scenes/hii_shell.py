@@ -1,10 +1,10 @@
-"""An HII region drives a thin shell: P passes smoothly through the contact where rho jumps two thousandfold.
+"""An HII region drives a thin shell: P passes the contact where rho jumps.
 
 Lecture p. 40; after Iwasaki, Tsuribe & Inutsuka 2011, simplified. Hot gas left of x = 0.2 (P = 1) pushes cold gas (rho
-1, c 0.1) before it. Both stay isothermal, so the cold gas piles up a hundred times denser between its shock and the
-contact; the line is the thin-shell solution. Masses jump with rho and space is shared out, so no particle feels that
-its neighbour is a thousand times heavier. By mass the last hot particle counts a heavy neighbour as its own density: its
-pressure is wrong from the first step on. It costs about 60 s on two cores.
+1, c 0.1) before it; both stay isothermal. The cold gas piles up a hundred times denser between its shock and the
+contact, where rho jumps two thousandfold; the line is the thin-shell solution. The masses jump too. By volume no
+particle feels that its neighbour is a thousand times heavier; by mass the last hot particles count heavy neighbours as
+density of their own, and their pressure is twice what it should be. It costs about 100 s on two cores.
 
     spmhd run hii_shell --variant "density by volume"
 """

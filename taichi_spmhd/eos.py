@@ -7,7 +7,7 @@ import numpy as np
 from .errors import InputError
 from .runtime import ti
 from .terms.base import Choice
-from .types import real
+from .types import real, vec3
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,20 @@ class Adiabatic(Choice):
 
 
 class Radiating(Choice):
-    """A gas without thermal energy: what work or friction heats is radiated away at once, P follows from rho alone."""
+    """A gas without thermal energy: P follows from rho alone, the heat of friction is radiated away at once.
+
+    What it radiates, - sum of all heat but P/rho^2 drho/dt, is integrated in leak_E: shocks lose energy as predicted.
+    """
+
+    evolves, sums = {"leak_E": real}, {"u": real, "closing": real}
+
+    @ti.func
+    def pair(self, i, j, w, now):
+        return ti.Struct(closing=w.Gi * (i.v - j.v).dot(w.e))  # drho/dt / rho^2
+
+    @ti.func
+    def after(self, i, total, now):
+        return ti.Struct(leak_E=i.P * total.closing - total.u)
 
     def sound_speed(self, columns: dict) -> np.ndarray | float:
         """c of every particle, (N,) or one number."""
@@ -52,7 +65,7 @@ class Isothermal(Radiating):
     """P = c^2 rho,   c_s = c;   there is no thermal energy, heat is radiated away"""
 
     c: float = 1.0
-    reads, makes = {"rho": real}, {"P": real, "cs": real}
+    reads, makes = {"rho": real, "v": vec3}, {"P": real, "cs": real}
 
     def __post_init__(self):
         if not self.c > 0:
@@ -74,7 +87,7 @@ class LocallyIsothermal(Radiating):
     HII region and the cloud around it (lecture p. 40). Give "cs" in start, a number or an array (N,).
     """
 
-    reads, makes, keeps = {"rho": real}, {"P": real}, {"cs": real}
+    reads, makes, keeps = {"rho": real, "v": vec3}, {"P": real}, {"cs": real}
 
     def sound_speed(self, columns: dict) -> np.ndarray:
         return columns["cs"].astype(float)

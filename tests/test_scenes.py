@@ -15,6 +15,8 @@ SMALL = {  # parameters that make a scene quick, and what it must have kept
     "mhd_blast": {"nx": 32, "t_end": 0.03},
     "sod": {"nx": 150, "t_end": 0.05},
     "sound_wave": {"nx": 16, "t_end": 0.2},
+    "contact_gap": {"nx": 32, "t_end": 0.1},
+    "hii_shell": {"nx": 48, "finer": 2, "t_end": 0.05},
 }
 
 
