@@ -78,22 +78,26 @@ def test_the_contact_of_the_shell_follows_the_thin_shell_solution_at_small_size(
 
 @pytest.mark.slow
 def test_the_shell_follows_the_thin_shell_solution_and_its_pressure_is_smooth():
-    # measured: place -1.5, -.9, -.7, -.7, -.9 % at t = .1 .. .5
-    by_volume, by_mass = load_scene("hii_shell", nx=84).values()
-    with Simulation(by_volume) as sim:
+    # measured, 60 cold particles: place -2.1, -1.0, -.7, -.7, -.7 % at t = .1 .. .5
+    with Simulation(load_scene("hii_shell", nx=60)["density by volume"]) as sim:
         for _ in sim.frames(6):
             if sim.time > 0:
                 place, hot, cold = pressures(sim)
-                assert place == pytest.approx(float(exact.thin_shell(sim.time).X), rel=0.02)
+                assert place == pytest.approx(float(exact.thin_shell(sim.time).X), rel=0.05)
         rho = sim["rho"][np.argsort(sim["x"][:, 0])]
-    # hot gas .99 .98 .98 .98 .94 .94 .80, cold .59 .83 .89 .96 .99 1.01: two particles on either side feel the jump
-    assert hot[:-1].min() > 0.9 and hot.max() < 1.1 and hot[-1] > 0.7
-    assert cold[0] > 0.5 and cold[1:8] == pytest.approx(1.0, abs=0.2)
-    assert rho[len(hot) + 3] / rho[len(hot) - 4] > 1000  # rho jumps by three orders within a few particles
-    with Simulation(by_mass.but(t_end=0.2)) as sim:
+    # hot gas 1 but for waves of 5 %, then .95 .95 .82; cold .61 .87 .93 1.02: two particles on either side feel the
+    # spacing, which differs by two there. In the shell P rises by 35 % towards the shock, since it is braked
+    assert hot[:-3].min() > 0.9 and hot.max() < 1.1 and hot[-1] > 0.7
+    assert cold[0] > 0.5 and abs(cold[1:8] - 1).max() < 0.2
+    assert rho[len(hot)] > 1000 * rho[len(hot) - 1]  # measured 1850: rho jumps from one particle to the next
+
+
+@pytest.mark.slow
+def test_by_mass_the_hot_gas_at_the_contact_has_twice_its_pressure():
+    with Simulation(load_scene("hii_shell", nx=60, t_end=0.2)["density by mass"]) as sim:
         sim.run()
         _, hot, cold = pressures(sim)
-    assert hot[-1] > 1.8 and hot[-1] > 2.5 * cold[0]  # measured 2.14 and .65
+    assert hot[-1] > 1.5 and hot[-1] > 2 * cold[0]  # measured with 84 cold particles 2.1 and .65; by volume .8 and .6
 
 
 @pytest.mark.slow
