@@ -66,7 +66,7 @@ def scenes(nx: int = 48, finer: int = 0, c_hot: float = 5.0, dim: Literal[1, 2] 
         start=start,
         eos=LocallyIsothermal(),
         density=SumVolume(),
-        stepper=Heun(),  # viscosity between such unequal masses is stiff: the leapfrog's prediction misses its heat
+        stepper=Heun(),  # viscosity between such unequal masses is stiff: the leapfrog heats four times too much
         boundary=Boundary(x=(Reflecting(), Frozen(STILL * LENGTH / nx)), y=Periodic()),
         terms=(Pressure(), Viscosity()),
         t_end=t_end,
