@@ -16,7 +16,7 @@ try:
     from .box import Box
     from .density import SumMass, SumVolume
     from .energy import Thermal, Total
-    from .eos import Adiabatic, Isothermal
+    from .eos import Adiabatic, Isothermal, LocallyIsothermal
     from .kernels import CubicSpline, Gaussian, QuinticSpline, WendlandC2, WendlandC4, WendlandC6
     from .lattice import close_packed, cubic, hexagonal, jitter, line, spacing, square
     from .library import load_scene
@@ -55,6 +55,7 @@ __all__ = [
     "InputError",
     "Isothermal",
     "LeapfrogKDK",
+    "LocallyIsothermal",
     "Open",
     "Part",
     "Periodic",

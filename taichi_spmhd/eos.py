@@ -2,10 +2,12 @@
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from .errors import InputError
 from .runtime import ti
 from .terms.base import Choice
-from .types import real
+from .types import real, vec3
 
 
 @dataclass(frozen=True)
@@ -30,17 +32,66 @@ class Adiabatic(Choice):
         return ti.Struct(u=i.P / ((self.gamma - 1.0) * i.rho))
 
 
+class Radiating(Choice):
+    """A gas without thermal energy: P follows from rho alone, the heat of friction is radiated away at once.
+
+    What it radiates, - sum of all heat but P/rho^2 drho/dt, is integrated in leak_E: shocks lose energy as predicted.
+    """
+
+    evolves, sums = {"leak_E": real}, {"u": real, "closing": real}
+
+    @ti.func
+    def pair(self, i, j, w, now):
+        return ti.Struct(closing=w.Gi * (i.v - j.v).dot(w.e))  # drho/dt / rho^2
+
+    @ti.func
+    def after(self, i, total, now):
+        return ti.Struct(leak_E=i.P * total.closing - total.u)
+
+    def sound_speed(self, columns: dict) -> np.ndarray | float:
+        """c of every particle, (N,) or one number."""
+        raise NotImplementedError
+
+    def free_energy(self, columns: dict, mean: float) -> np.ndarray:
+        """c^2 (1 + ln(rho/mean)) per mass, (N,): what such a gas stores in place of u, since d/drho of it is P/rho^2.
+
+        mean: any constant density; it only shifts the zero.
+        """
+        return self.sound_speed(columns) ** 2 * (1 + np.log(columns["rho"] / mean))
+
+
 @dataclass(frozen=True)
-class Isothermal(Choice):
+class Isothermal(Radiating):
     """P = c^2 rho,   c_s = c;   there is no thermal energy, heat is radiated away"""
 
     c: float = 1.0
-    reads, makes = {"rho": real}, {"P": real, "cs": real}
+    reads, makes = {"rho": real, "v": vec3}, {"P": real, "cs": real}
 
     def __post_init__(self):
         if not self.c > 0:
             raise InputError(f"Isothermal: the sound speed c = {self.c} must be positive")
 
+    def sound_speed(self, columns: dict) -> float:
+        return self.c
+
     @ti.func
     def close(self, i, now):
         return ti.Struct(P=self.c * self.c * i.rho, cs=ti.cast(self.c, float))
+
+
+@dataclass(frozen=True)
+class LocallyIsothermal(Radiating):
+    """P_i = c_i^2 rho_i;   every particle keeps the sound speed cs that the start gives it, whatever happens
+
+    For gases of different temperature that do not mix, each kept warm or cold by its own radiation: the hot gas of an
+    HII region and the cloud around it (lecture p. 40). Give "cs" in start, a number or an array (N,).
+    """
+
+    reads, makes, keeps = {"rho": real, "v": vec3}, {"P": real}, {"cs": real}
+
+    def sound_speed(self, columns: dict) -> np.ndarray:
+        return columns["cs"].astype(float)
+
+    @ti.func
+    def close(self, i, now):
+        return ti.Struct(P=i.cs * i.cs * i.rho)

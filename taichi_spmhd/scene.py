@@ -11,7 +11,7 @@ from .boundary import Boundary, everywhere
 from .box import Box, as_box
 from .density import SumMass, Summation
 from .energy import Energy, Thermal
-from .eos import Adiabatic, Isothermal
+from .eos import Adiabatic, Radiating
 from .errors import InputError
 from .kernels import CubicSpline, Kernel
 from .picture import Picture
@@ -23,11 +23,11 @@ from .terms import Choice, Part, Term
 class Scene:
     """Terms add, choices replace.
 
-    box: lengths or intervals per axis; positions: (N, d); start(x) -> {"rho", "v", "P" or "u", "B", "psi", "mass"},
-    arrays (N,) or (N, 3) or numbers; terms: the effects; eos, kernel, density, energy, stepper, boundary: one choice
-    each. exact(x, t) -> {member: array}: the solution where there is one, `measure` the member whose error is quoted;
-    reference: path of a stored map to compare with at its time (diagnostics/reference.py). Without "mass" the mass is
-    rho times volume / N.
+    box: lengths or intervals per axis; positions: (N, d); start(x) -> {"rho", "v", "P" or "u" (LocallyIsothermal:
+    "cs"), "B", "psi", "mass"}, arrays (N,) or (N, 3) or numbers; terms: the effects; eos, kernel, density, energy,
+    stepper, boundary: one choice each. exact(x, t) -> {member: array}: the solution where there is one, `measure` the
+    member whose error is quoted; reference: path of a stored map to compare with at its time
+    (diagnostics/reference.py). Without "mass" the mass is rho times volume / N.
     """
 
     box: Box
@@ -63,7 +63,7 @@ class Scene:
     @property
     def parts(self) -> tuple:
         """Choices that take part in an evaluation, then the terms, in an order in which every need is made before."""
-        energy = () if isinstance(self.eos, Isothermal) else (self.energy,)
+        energy = () if isinstance(self.eos, Radiating) else (self.energy,)
         listed = (*energy, self.eos, *self.terms)
         return in_order(tuple(part.among(listed) for part in listed))
 

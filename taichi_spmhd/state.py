@@ -4,15 +4,15 @@ import numpy as np
 
 from . import runtime
 from .boundary import LOWER, Reflecting
-from .eos import Isothermal
+from .eos import Radiating
 from .errors import InputError
 
 VECTORS = ("v", "B")
-KNOWN = ("rho", "v", "P", "u", "B", "psi", "mass")
+KNOWN = ("rho", "v", "P", "u", "cs", "B", "psi", "mass")
 
 
 def opening(scene) -> dict[str, np.ndarray]:
-    """What the scene's start(x) says, as full arrays: x, m, rho, v, P or u, B, psi. Raises InputError."""
+    """What the scene's start(x) says, as full arrays: x, m, rho, v, P or u or cs, B, psi. Raises InputError."""
     x = scene.positions
     given = scene.start(x)
     if not isinstance(given, dict):
@@ -30,8 +30,10 @@ def opening(scene) -> dict[str, np.ndarray]:
     for part in scene.parts:
         if "B" in part.reads and "B" not in values:
             raise InputError(f"start: {type(part).__name__} needs B; give B as an array (N, 3)")
-    if not isinstance(scene.eos, Isothermal) and not {"P", "u"} & set(values):
+    if not isinstance(scene.eos, Radiating) and not {"P", "u"} & set(values):
         raise InputError("start: give the pressure P (or the thermal energy u)")
+    if "cs" in scene.eos.keeps and "cs" not in values:
+        raise InputError(f"start: {type(scene.eos).__name__} needs the sound speed cs of every particle; give cs")
     check_start(x, values)
     check_used(scene, given)
     check_walls(scene)
@@ -45,8 +47,11 @@ def check_used(scene, given: dict) -> None:
     read = {name for part in scene.parts for name in (*part.reads, *part.makes)}
     if "P" in given and "u" in given:
         raise InputError("start: P and u both given; give one of them")
-    if isinstance(scene.eos, Isothermal) and {"P", "u"} & set(given):
-        raise InputError("start: an Isothermal gas has its pressure from rho alone; leave out P and u")
+    gas = type(scene.eos).__name__
+    if isinstance(scene.eos, Radiating) and {"P", "u"} & set(given):
+        raise InputError(f"start: {gas}: the pressure follows from rho alone; leave out P and u")
+    if "cs" in given and "cs" not in scene.eos.keeps:
+        raise InputError(f"start: cs given, but {gas} has its own sound speed; leave out cs or use LocallyIsothermal()")
     if "B" in given and "B" not in read:
         raise InputError("start: B given, but no term reads it; list Stress() and Induction(), or leave out B")
 
@@ -80,7 +85,7 @@ def check_start(x: np.ndarray, values: dict) -> None:
         bad = ~np.isfinite(array).reshape(len(x), -1).all(axis=1)
         if bad.any():
             raise InputError(f"start: {name} of particle {np.argmax(bad)} is not finite; mend start() or the positions")
-    for name in ("m", "rho", "P", "u"):
+    for name in ("m", "rho", "P", "u", "cs"):
         if name in values and not (values[name] > 0).all():
             k = int(np.argmin(values[name]))
             raise InputError(f"start: {name} of particle {k} is {values[name][k]:.3g}; it must be positive")
@@ -137,7 +142,7 @@ def held(scene, x: np.ndarray) -> np.ndarray:
 
 def open_members(sim) -> None:
     """Evolved members from primitive ones, now that the summed density is known."""
-    if sim.given_u is not None and not isinstance(sim.scene.eos, Isothermal):
+    if sim.given_u is not None and not isinstance(sim.scene.eos, Radiating):
         p = sim.particles
         table, ids = p.table()
         first = {name: first for name, _, first in p.layout}

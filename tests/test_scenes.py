@@ -27,6 +27,8 @@ SMALL = {  # parameters that make a scene quick, and what it must have kept
     "brio_wu": {"nx": 200},
     "solitary_wave": {"nx": 48, "t_end": 0.2},
     "sound_wave": {"nx": 16, "t_end": 0.2},
+    "contact_gap": {"nx": 32, "t_end": 0.1},
+    "hii_shell": {"nx": 48, "finer": 2, "t_end": 0.05},
 }
 
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..eos import Isothermal
+from ..eos import Radiating
 
 
 @dataclass
@@ -47,12 +47,12 @@ def energies(sim, columns: dict | None = None) -> dict[str, float]:
 
 
 def internal(sim, columns: dict) -> float:
-    """sum m u; for an isothermal gas the free energy c^2 (1 + ln(rho V/M)) per mass, which the forces conserve too."""
+    """sum m u; for a gas without u the free energy c^2 (1 + ln(rho V/M)) per mass, which the forces conserve too."""
     eos = sim.scene.eos
-    if not isinstance(eos, Isothermal):
+    if not isinstance(eos, Radiating):
         return total(columns, columns["u"])
     mean = float(columns["m"].astype(float).sum()) / sim.scene.box.volume
-    return eos.c**2 * total(columns, 1 + np.log(columns["rho"] / mean))
+    return total(columns, eos.free_energy(columns, mean))
 
 
 def momentum(sim, columns: dict | None = None) -> np.ndarray:
