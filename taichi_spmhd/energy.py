@@ -61,7 +61,7 @@ class MagneticTotal(Total):
     """E = v^2/2 + u + B^2/(2 rho), in a scene with a field."""
 
     reads = {"v": vec3, "B": vec3, "rho": real}
-    sums = {"u": real, "b": vec3, "closing_E": real}
+    sums = {"u": real, "b": vec3, "closing": real}
 
     @ti.func
     def open(self, i, now):
@@ -72,11 +72,7 @@ class MagneticTotal(Total):
         return ti.Struct(u=i.E - 0.5 * i.v.dot(i.v) - 0.5 * i.B.dot(i.B) / i.rho)
 
     @ti.func
-    def pair(self, i, j, w, now):
-        return ti.Struct(closing_E=w.Gi * (i.v - j.v).dot(w.e))  # drho/dt / rho^2
-
-    @ti.func
     def after(self, i, total, now):
         return ti.Struct(
-            E=i.v.dot(total.v) + total.u + i.B.dot(total.b) + 0.5 * i.B.dot(i.B) * total.closing_E,
+            E=i.v.dot(total.v) + total.u + i.B.dot(total.b) + 0.5 * i.B.dot(i.B) * total.closing,
         )

@@ -41,10 +41,6 @@ class Radiating(Choice):
     evolves, sums = {"leak_E": real}, {"u": real, "closing": real}
 
     @ti.func
-    def pair(self, i, j, w, now):
-        return ti.Struct(closing=w.Gi * (i.v - j.v).dot(w.e))  # drho/dt / rho^2
-
-    @ti.func
     def after(self, i, total, now):
         return ti.Struct(leak_E=i.P * total.closing - total.u)
 

@@ -53,14 +53,13 @@ class InductionOfB(Term):
 
     form: str = "B"
     reads, evolves = {"v": vec3, "rho": real, "B": vec3}, {"B": vec3}
-    sums = {"b": vec3, "closing_B": real}
+    sums = {"b": vec3, "closing": real}
     rank = 1  # when all rates of B/rho are summed
 
     @ti.func
     def pair(self, i, j, w, now):
-        dv = i.v - j.v
-        return ti.Struct(b=-(w.Gi * i.B.dot(w.e)) * dv, closing_B=w.Gi * dv.dot(w.e))
+        return ti.Struct(b=-(w.Gi * i.B.dot(w.e)) * (i.v - j.v))
 
     @ti.func
     def after(self, i, total, now):
-        return ti.Struct(B=i.rho * (total.b + total.closing_B * i.B))
+        return ti.Struct(B=i.rho * (total.b + total.closing * i.B))

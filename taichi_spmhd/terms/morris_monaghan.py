@@ -20,7 +20,7 @@ class MorrisMonaghan(Viscosity):
     decay: float = 0.1
     reads = {**Viscosity.reads, "h": real, "alpha": real}
     evolves = {**Viscosity.evolves, "alpha": real}
-    sums = {"compression": real}  # - div v / rho
+    sums = {"closing": real}
 
     def __post_init__(self):
         super().__post_init__()
@@ -39,12 +39,6 @@ class MorrisMonaghan(Viscosity):
         return s.alpha
 
     @ti.func
-    def pair(self, i, j, w, now):
-        closing = (i.v - j.v).dot(w.e)
-        part = self.push(i, j, w, ti.min(closing, 0.0))
-        return ti.Struct(v=part.v, u=part.u, compression=w.Gi * closing)
-
-    @ti.func
     def after(self, i, total, now):
-        rise = ti.max(i.rho * total.compression, 0.0) * (self.alpha - i.alpha)
+        rise = ti.max(i.rho * total.closing, 0.0) * (self.alpha - i.alpha)
         return ti.Struct(alpha=rise - (i.alpha - self.alpha_min) * self.decay * i.vw / i.h)

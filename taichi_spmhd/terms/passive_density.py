@@ -19,7 +19,7 @@ class PassiveDensity(Term):
 
     Omega: bool = True
     reads = {"v": vec3, "rho": real, "Omega": real}
-    makes, evolves, sums = {"rho_error": real}, {"rho_evolved": real}, {"closing_evolved": real}
+    makes, evolves, sums = {"rho_error": real}, {"rho_evolved": real}, {"closing": real}
 
     def __post_init__(self):
         if not isinstance(self.Omega, bool):
@@ -34,12 +34,8 @@ class PassiveDensity(Term):
         return ti.Struct(rho_error=i.rho_evolved / i.rho - 1.0)
 
     @ti.func
-    def pair(self, i, j, w, now):
-        return ti.Struct(closing_evolved=(i.v - j.v).dot(w.e) * w.Gi)
-
-    @ti.func
     def after(self, i, total, now):
-        rate = i.rho * i.rho * total.closing_evolved
+        rate = i.rho * i.rho * total.closing
         if ti.static(not self.Omega):
             rate *= i.Omega  # w.Gi holds 1/Omega
         return ti.Struct(rho_evolved=rate)
