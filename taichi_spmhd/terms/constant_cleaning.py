@@ -14,8 +14,8 @@ class ConstantCleaning(Hyperbolic):
 
     Hyperbolic divergence cleaning with one speed for all particles (lecture pp. 27-30; Dedner et al. 2002; Iwasaki &
     Inutsuka 2013): c_h = C_CFL min(dx)/dt, dx = (m/rho)^(1/d), of the step that is being taken (the largest vw before
-    the first), and 1/tau = alpha c_h/min(dx), so that each step damps psi by exp(-alpha C_CFL), exactly, at its end. What
-    that takes is booked in leak_E.
+    the first), and 1/tau = alpha c_h/min(dx), so that each step damps psi by exp(-alpha C_CFL), exactly, at its end.
+    What that takes is booked in leak_E.
 
     frame="flow" (the default): psi moves with the gas; -psi div v/2 keeps its energy when the gas is squeezed, as in
     Cleaning, and nothing depends on the observer's motion. frame="eulerian": psi stays where it is, as in Dedner's
@@ -23,7 +23,7 @@ class ConstantCleaning(Hyperbolic):
     scaled=True (the default): y = psi/c_h is evolved, so psi follows when c_h changes and no energy is made.
     scaled=False: psi is evolved, as the equations are usually written; a step that grows by 10 then makes the energy of
     psi 100 times larger.
-    Advice: alpha = 0.3; f_clean > 1 shortens the step, and so raises c_h, by that factor wherever Courant's limit rules.
+    Advice: alpha = 0.3; f_clean > 1 shortens the step, and so raises c_h, by that factor where Courant's limit rules.
     """
 
     alpha: float = 0.3
