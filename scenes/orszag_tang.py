@@ -11,7 +11,17 @@ from a hexagonal one. It costs about 50 s on two cores.
 import numpy as np
 
 from taichi_spmhd import Adiabatic, CubicSpline, Picture, Scene, square
-from taichi_spmhd.terms import Cleaning, Conductivity, CullenDehnen, DivBSource, Induction, Resistivity, Stress
+from taichi_spmhd.terms import (
+    Cleaning,
+    Conductivity,
+    ConstantCleaning,
+    CullenDehnen,
+    DivBSource,
+    Induction,
+    Resistivity,
+    Stress,
+    TriccoPrice2012,
+)
 
 BOX = (1.0, 1.0)
 RHO, P, B0 = 25 / (36 * np.pi), 5 / (12 * np.pi), 1 / np.sqrt(4 * np.pi)
@@ -26,7 +36,7 @@ def start(x):
 
 
 def scenes(nx: int = 128, t_end: float = 0.5):
-    """Without and with hyperbolic divergence cleaning."""
+    """Without and with each hyperbolic divergence cleaning."""
     bare = Scene(
         box=BOX,
         positions=square(BOX, nx),
@@ -37,4 +47,9 @@ def scenes(nx: int = 128, t_end: float = 0.5):
         t_end=t_end,
         picture=Picture("rho", limits=(0.08, 0.5), draw="sph"),
     )
-    return {"without cleaning": bare, "with cleaning": bare.plus(Cleaning())}
+    return {
+        "without cleaning": bare,
+        "constant c_h": bare.plus(ConstantCleaning()),
+        "Tricco & Price 2012": bare.plus(TriccoPrice2012()),
+        "with cleaning": bare.plus(Cleaning()),
+    }

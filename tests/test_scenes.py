@@ -12,6 +12,7 @@ SMALL = {  # parameters that make a scene quick, and what it must have kept
     "uniform_field": {"nx": 16, "duration": 2.0},
     "orszag_tang": {"nx": 32, "t_end": 0.1},
     "blast": {"nx": 32, "t_end": 0.03},
+    "divergence_peak": {"nx": 16, "case": "jump", "t_end": 0.1},
     "mhd_blast": {"nx": 32, "t_end": 0.03},
     "sod": {"nx": 150, "t_end": 0.05},
     "sound_wave": {"nx": 16, "t_end": 0.2},
