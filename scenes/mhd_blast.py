@@ -12,7 +12,17 @@ from pathlib import Path
 import numpy as np
 
 from taichi_spmhd import Adiabatic, Picture, QuinticSpline, Scene, hexagonal
-from taichi_spmhd.terms import Cleaning, Conductivity, CullenDehnen, DivBSource, Induction, Resistivity, Stress
+from taichi_spmhd.terms import (
+    Cleaning,
+    Conductivity,
+    ConstantCleaning,
+    CullenDehnen,
+    DivBSource,
+    Induction,
+    Resistivity,
+    Stress,
+    TriccoPrice2012,
+)
 
 BOX = ((-0.5, 0.5), (-0.5, 0.5))
 RADIUS, P_IN, P_OUT = 0.1, 10.0, 0.1
@@ -21,7 +31,7 @@ REFERENCE = Path(__file__).parent / "reference" / "blast_mhd_t0.15_c128.npz"  # 
 
 
 def scenes(nx: int = 128, B0: float = 1.0, angle: float = 45.0, t_end: float = 0.15):
-    """Without and with hyperbolic divergence cleaning. angle: of B against the x axis, degrees."""
+    """Without and with each hyperbolic divergence cleaning. angle: of B against the x axis, degrees."""
     field = B0 * np.array([np.cos(np.radians(angle)), np.sin(np.radians(angle)), 0.0])
 
     def start(x):
@@ -38,4 +48,9 @@ def scenes(nx: int = 128, B0: float = 1.0, angle: float = 45.0, t_end: float = 0
         picture=Picture("rho", limits=(0.0, 3.0), draw="sph"),
         reference=REFERENCE if (B0, angle) == (1.0, 45.0) else None,
     )
-    return {"without cleaning": bare, "with cleaning": bare.plus(Cleaning())}
+    return {
+        "without cleaning": bare,
+        "constant c_h": bare.plus(ConstantCleaning()),
+        "Tricco & Price 2012": bare.plus(TriccoPrice2012()),
+        "with cleaning": bare.plus(Cleaning()),
+    }

@@ -13,7 +13,17 @@ from pathlib import Path
 import numpy as np
 
 from taichi_spmhd import Adiabatic, CubicSpline, Picture, Scene, square
-from taichi_spmhd.terms import Cleaning, Conductivity, CullenDehnen, DivBSource, Induction, Resistivity, Stress
+from taichi_spmhd.terms import (
+    Cleaning,
+    Conductivity,
+    ConstantCleaning,
+    CullenDehnen,
+    DivBSource,
+    Induction,
+    Resistivity,
+    Stress,
+    TriccoPrice2012,
+)
 
 BOX = (1.0, 1.0)
 RHO, P, B0 = 25 / (36 * np.pi), 5 / (12 * np.pi), 1 / np.sqrt(4 * np.pi)
@@ -30,7 +40,7 @@ def start(x):
 
 
 def scenes(nx: int = 128, t_end: float = 0.5):
-    """Without and with hyperbolic divergence cleaning."""
+    """Without and with each hyperbolic divergence cleaning."""
     bare = Scene(
         box=BOX,
         positions=square(BOX, nx),
@@ -42,4 +52,9 @@ def scenes(nx: int = 128, t_end: float = 0.5):
         picture=Picture("rho", limits=(0.08, 0.5), draw="sph"),
         reference=REFERENCE,
     )
-    return {"without cleaning": bare, "with cleaning": bare.plus(Cleaning())}
+    return {
+        "without cleaning": bare,
+        "constant c_h": bare.plus(ConstantCleaning()),
+        "Tricco & Price 2012": bare.plus(TriccoPrice2012()),
+        "with cleaning": bare.plus(Cleaning()),
+    }

@@ -38,7 +38,7 @@ def chaos(x):
 def disordered_scene(*terms, **changes) -> Scene:
     """500 particles 0.2 spacings off a square lattice, cubic spline, h to 1e-14."""
     x = jitter(square(BOX, 20), BOX, 0.2, seed=3)
-    read = {"psi", "B"} & {name for term in terms for name in (*term.reads, *term.makes)}
+    read = {"psi", "B"} & {name for term in terms for name in (*term.reads, *term.makes, *term.keeps)}
     left_out = {"psi", "B"} - read
     start = changes.pop("start", chaos)
 

@@ -43,7 +43,11 @@ SETS = {
         (Resistivity(), ConstantCleaning()),
         {"energy": Total(), "density": SumVolume(tolerance=1e-14)},
     ),
-    "repulsion": ((Stress(), Induction(), Repulsion(), Balsara()), (TriccoPrice2012(), PassiveDensity(Omega=False)), {}),
+    "repulsion": (
+        (Stress(), Induction(), Repulsion(), Balsara()),
+        (TriccoPrice2012(), PassiveDensity(Omega=False)),
+        {},
+    ),
     "viscosity": ((Pressure(), Viscosity()), (), {"energy": Total()}),
     "isothermal": ((Pressure(), MorrisMonaghan()), (), {"eos": Isothermal(1.2)}),
 }

@@ -18,6 +18,7 @@ SMALL = {  # parameters that make a scene quick, and what it must have kept
     "density_evolution": {"nx": 32, "t_end": 0.03},
     "field_loop": {"nx": 20, "t_end": 0.25},
     "kelvin_helmholtz": {"nx": 20, "t_end": 0.2},
+    "divergence_peak": {"nx": 16, "case": "jump", "t_end": 0.1},
     "mhd_blast": {"nx": 32, "t_end": 0.03},
     "rotor": {"nx": 24, "t_end": 0.03},
     "sod": {"nx": 150, "t_end": 0.05},

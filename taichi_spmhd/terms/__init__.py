@@ -4,6 +4,7 @@ from .balsara import Balsara
 from .base import Choice, Part, Term
 from .cleaning import Cleaning
 from .conductivity import Conductivity
+from .constant_cleaning import ConstantCleaning
 from .divb_source import DivBSource
 from .induction import Induction
 from .lecture_viscosity import LectureViscosity
@@ -15,7 +16,8 @@ from .resistivity import Resistivity
 from .stress import Stress
 from .stress_shift import StressShift
 from .switch import CullenDehnen
-from .tricco_price import TriccoPrice2013
+from .tricco_price_2012 import TriccoPrice2012
+from .tricco_price_2013 import TriccoPrice2013
 from .viscosity import Viscosity
 from .xi_rules import LogLinearXi, MinimalXi, PhantomXi, XiRule, xi_of
 
@@ -24,6 +26,7 @@ __all__ = [
     "Choice",
     "Cleaning",
     "Conductivity",
+    "ConstantCleaning",
     "CullenDehnen",
     "DivBSource",
     "Induction",
@@ -40,6 +43,7 @@ __all__ = [
     "Stress",
     "StressShift",
     "Term",
+    "TriccoPrice2012",
     "TriccoPrice2013",
     "Viscosity",
     "XiRule",

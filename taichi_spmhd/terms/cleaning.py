@@ -1,13 +1,12 @@
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
-from ..errors import InputError
 from ..runtime import ti
-from ..types import real, vec3
-from .base import Term
+from ..types import real
+from .hyperbolic import OwnSpeed
 
 
 @dataclass(frozen=True)
-class Cleaning(Term):
+class Cleaning(OwnSpeed):
     """d(B/rho)_i/dt = - sum_j ( psi_i Gi + psi_j Gj ) e,   dy/dt = - c_h div B - (sigma c_h/h + div v/2) y
 
     Hyperbolic divergence cleaning with a cleaning speed per particle (lecture pp. 27-30; Dedner et al. 2002; Tricco,
@@ -17,21 +16,9 @@ class Cleaning(Term):
     Advice: sigma = 0.3 in 2-D, 1 in 3-D (the default chooses); f_clean > 1 cleans more and costs time step.
     """
 
-    sigma: float = 0.0  # 0: by dimension
-    f_clean: float = 1.0
-    reads = {"B": vec3, "v": vec3, "rho": real, "h": real, "vw": real, "y": real}
+    reads = {**OwnSpeed.reads, "y": real}
     makes = {"psi": real, "ch": real}
-    evolves, sums = {"y": real, "leak_E": real}, {"b": vec3}
-
-    def __post_init__(self):
-        if not (0 <= self.sigma < 100 and 0 < self.f_clean < 100):
-            raise InputError(
-                f"Cleaning: sigma = {self.sigma} must lie in 0..100 and f_clean = {self.f_clean} in (0, 100)"
-            )
-
-    def at(self, dim: int) -> "Cleaning":
-        """With the damping that suits the number of dimensions where none was given."""
-        return self if self.sigma else replace(self, sigma=1.0 if dim == 3 else 0.3)
+    evolves = {"y": real, "leak_E": real}
 
     @ti.func
     def open(self, i, now):
@@ -52,9 +39,5 @@ class Cleaning(Term):
 
     @ti.func
     def local(self, i, now):
-        damping = self.sigma * i.ch / i.h * i.y
+        damping = self.rate(i) * i.y
         return ti.Struct(y=-damping, leak_E=-damping * i.y / i.rho)
-
-    @ti.func
-    def max_dt(self, i, now):
-        return 0.3 * i.h / (i.ch + 1e-30)
