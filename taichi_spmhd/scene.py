@@ -17,6 +17,7 @@ from .scene_checks import check, check_kinds, numbers
 from .stepper import LeapfrogKDK
 from .terms import Term
 from .terms.compression import Compression
+from .terms.frozen_ends import FrozenEnds
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,7 +68,8 @@ class Scene:
         listed = (*energy, self.eos, *self.terms)
         parts = tuple(part.among(listed) for part in listed)
         closing = (Compression(),) if any("closing" in part.sums for part in parts) else ()
-        return in_order((*parts, *closing))
+        ends = (FrozenEnds().among(parts),) if self.boundary.frozen else ()
+        return in_order((*parts, *closing, *ends))
 
     def sketch(self) -> str:
         """Terms, choices and box in one line: what a saved state must agree with."""

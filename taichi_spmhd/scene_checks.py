@@ -119,7 +119,7 @@ def check_sums(scene: "Scene") -> None:
 
 def check_members(scene: "Scene") -> None:
     """Every member a part reads must be given, made or evolved by somebody; every scene needs a signal speed."""
-    there = GIVEN | {name for part in scene.parts for name in (*part.makes, *part.evolves, *part.keeps)}
+    there = GIVEN | {"held"} | {name for part in scene.parts for name in (*part.makes, *part.evolves, *part.keeps)}
     for part in scene.parts:
         if "b" in part.sums and "B" not in there:
             raise InputError(f"{type(part).__name__} changes B, which nothing in this scene evolves: {CURES['B']}")

@@ -36,9 +36,10 @@ class Advance:
         return found
 
     @ti.func
-    def free(self, s):
+    def free(self, s, key: ti.template()):
+        """Whether member `key` of this particle follows its rate: of the held ones only the ledger's do."""
         free = ti.cast(1.0, float)
-        if ti.static(self.held):
+        if ti.static(self.held and not key.startswith("leak")):
             free -= ti.cast(s.held, float)
         return free
 
@@ -48,12 +49,11 @@ class Advance:
         floors = 0
         for n in range(self.p.n):
             s, r = self.p.state[n], self.p.rate[n]
-            free = self.free(s)
             self.p.old[n] = r
             for a in ti.static(range(self.p.dim)):
-                self.p.state[n].x[a] = s.x[a] + dt * (s.v[a] + 0.5 * dt * free * r.v[a])
+                self.p.state[n].x[a] = s.x[a] + dt * (s.v[a] + 0.5 * dt * self.free(s, "v") * r.v[a])
             for key in ti.static(r.keys):
-                value = s[key] + dt * free * r[key]
+                value = s[key] + dt * self.free(s, key) * r[key]
                 if ti.static(key == "u"):
                     floors += ti.cast(value <= 0.0, ti.i32)
                     value = ti.select(value > 0.0, value, 0.5 * s[key])
@@ -69,9 +69,9 @@ class Advance:
         found = 0
         for n in range(self.p.n):
             s, new, old = self.p.state[n], self.p.rate[n], self.p.old[n]
-            half, ill = 0.5 * dt * self.free(s), 0
+            ill = 0
             for key in ti.static(new.keys):
-                value = s[key] + half * (new[key] - old[key])
+                value = s[key] + 0.5 * dt * self.free(s, key) * (new[key] - old[key])
                 if self.ill(value, key):
                     ill = n + 1
                 else:
@@ -85,12 +85,12 @@ class Advance:
         found = 0
         for n in range(self.p.n):
             s, r, start = self.p.state[n], self.p.rate[n], saved[n]
-            free, ill = self.free(s), 0
+            ill = 0
             back = self.pairs.apart(start.x, s.x)
             for c in ti.static(range(self.p.dim)):
                 self.p.state[n].x[c] = s.x[c] + a * back[c] + b * dt * s.v[c]
             for key in ti.static(r.keys):
-                value = a * start[key] + b * (s[key] + dt * free * r[key])
+                value = a * start[key] + b * (s[key] + dt * self.free(s, key) * r[key])
                 if self.ill(value, key):
                     ill = n + 1
                 else:
