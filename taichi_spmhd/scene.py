@@ -62,11 +62,15 @@ class Scene:
         return self.positions.shape[1]
 
     @property
-    def parts(self) -> tuple:
-        """Choices that take part in an evaluation, then the terms, in an order in which every need is made before."""
+    def listed(self) -> tuple:
+        """Choices that take part in an evaluation, then the terms, as the scene names them."""
         energy = () if isinstance(self.eos, Radiating) else (self.energy,)
-        listed = (*energy, self.eos, *self.terms)
-        parts = tuple(part.among(listed) for part in listed)
+        return (*energy, self.eos, *self.terms)
+
+    @property
+    def parts(self) -> tuple:
+        """The parts that do the work, in an order in which every need is made before."""
+        parts = tuple(part.among(self.listed) for part in self.listed)
         closing = (Compression(),) if any("closing" in part.sums for part in parts) else ()
         ends = (FrozenEnds().among(parts),) if self.boundary.frozen else ()
         return in_order((*parts, *closing, *ends))

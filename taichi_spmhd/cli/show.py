@@ -50,9 +50,9 @@ def describe(label: str, scene, path) -> None:
 
 def equations(scene) -> list[tuple[str, str]]:
     """(a part as a scene file writes it, its equation): terms, then choices."""
-    energy = [scene.energy] if scene.energy in scene.parts else []  # an isothermal gas has none
+    energy = [scene.energy] if scene.energy in scene.listed else []  # an isothermal gas has none
     choices = [scene.eos, *energy, scene.density, scene.kernel, scene.stepper]
-    rows = [("term " + str(term), first_line(term)) for term in scene.terms]
+    rows = [("term " + str(term), first_line(term.among(scene.listed))) for term in scene.terms]
     rows += [(named(choice), first_line(choice)) for choice in choices]
     return [*rows, ("Boundary", edges(scene))]
 

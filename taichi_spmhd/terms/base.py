@@ -67,7 +67,9 @@ class Part:
         return {**self.reads, **self.keeps, **self.makes, **self.evolves}
 
     def __str__(self) -> str:
-        given = (f"{f.name}={shown(getattr(self, f.name))}" for f in fields(self))
+        """As a scene file would write it: every number, and options that are not the default."""
+        values = [(f, getattr(self, f.name)) for f in fields(self)]
+        given = [f"{f.name}={shown(v)}" for f, v in values if isinstance(v, float) or v != f.default]
         return f"{type(self).__name__}({', '.join(given)})"
 
 

@@ -120,11 +120,11 @@ class Eulerian:
 
 
 class EulerianScaled(Eulerian, ConstantCleaning):
-    pass
+    """dy/dt = v.grad y - c_h div B - y/tau,   y = psi/c_h:   psi stays where it is"""
 
 
 class EulerianUnscaled(Eulerian, Unscaled):
-    pass
+    """dpsi/dt = v.grad psi - c_h^2 div B - psi/tau:   psi stays where it is and is not scaled with c_h"""
 
 
 KINDS = {
