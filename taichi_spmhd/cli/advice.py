@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from ..terms.hyperbolic import Hyperbolic
+
 ROUND = 1e-5  # a disturbance smaller than this share of its background drowns in the rounding of f32
 
 
@@ -11,8 +13,9 @@ def warnings(sim) -> list[str]:
     found = []
     if "Stress" in terms and "B" in columns:
         found += clumping(columns, getattr(terms.get("DivBSource"), "xi", 0.0))
-    if "Cleaning" in terms and "Stress" not in terms:
-        found.append("Cleaning without Stress: nothing feels the field that is cleaned; list Stress()")
+    cleaning = [name for name, term in terms.items() if isinstance(term, Hyperbolic)]
+    if cleaning and "Stress" not in terms:
+        found.append(f"{cleaning[0]} without Stress: nothing feels the field that is cleaned; list Stress()")
     if "DivBSource" in terms and "Stress" not in terms:
         found.append("DivBSource without Stress: there is no force along B to take away; list Stress()")
     if sim.particles.word().itemsize == 4:
