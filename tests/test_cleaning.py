@@ -275,7 +275,8 @@ def test_every_cleaning_keeps_div_B_small_in_orszag_tang_at_t_1():
     variants["over-cleaned"] = variants["without cleaning"].plus(ConstantCleaning(f_clean=3.0))
     found = div_B_at_the_end(variants, t_end=1.0)
     none = found.pop("without cleaning")
-    # measured: constant c_h .0074 (99 %: .064 against .161), per particle .0090 (.086), 2012 .0086 (.080), f_clean = 3: .0048 (.043)
+    # measured: constant c_h .0074 (99 %: .064 against .161), per particle
+    # .0090 (.086), 2012 .0086 (.080), f_clean = 3: .0048 (.043)
     assert all(one["mean"] < 0.01 for one in found.values())
     assert all(none["mean"] > 2.5 * one["mean"] for one in found.values())
     assert none["p99"] > 3.5 * found["over-cleaned"]["p99"]  # 3.74
