@@ -30,8 +30,8 @@ RADIUS, P_IN, P_OUT = 0.1, 10.0, 0.1
 REFERENCE = Path(__file__).parent / "reference" / "blast_mhd_t0.15_c128.npz"  # that grid run, in means of 128^2 cells
 
 
-def scenes(nx: int = 128, B0: float = 1.0, angle: float = 45.0, t_end: float = 0.15):
-    """Without and with each hyperbolic divergence cleaning. angle: of B against the x axis, degrees."""
+def scenes(nx: int = 128, B0: float = 1.0, angle: float = 45.0, t_end: float = 0.15, f_clean: float = 1.0):
+    """Without and with each hyperbolic divergence cleaning, f_clean times faster. angle: of B to x, degrees."""
     field = B0 * np.array([np.cos(np.radians(angle)), np.sin(np.radians(angle)), 0.0])
 
     def start(x):
@@ -50,7 +50,7 @@ def scenes(nx: int = 128, B0: float = 1.0, angle: float = 45.0, t_end: float = 0
     )
     return {
         "without cleaning": bare,
-        "constant c_h": bare.plus(ConstantCleaning()),
-        "Tricco & Price 2012": bare.plus(TriccoPrice2012()),
-        "with cleaning": bare.plus(Cleaning()),
+        "constant c_h": bare.plus(ConstantCleaning(f_clean=f_clean)),
+        "Tricco & Price 2012": bare.plus(TriccoPrice2012(f_clean=f_clean)),
+        "with cleaning": bare.plus(Cleaning(f_clean=f_clean)),
     }

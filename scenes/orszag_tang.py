@@ -39,8 +39,8 @@ def start(x):
     return {"rho": RHO, "P": P, "v": v, "B": B}
 
 
-def scenes(nx: int = 128, t_end: float = 0.5):
-    """Without and with each hyperbolic divergence cleaning."""
+def scenes(nx: int = 128, t_end: float = 0.5, f_clean: float = 1.0):
+    """Without and with each hyperbolic divergence cleaning. f_clean: how much faster it is, and the step shorter."""
     bare = Scene(
         box=BOX,
         positions=square(BOX, nx),
@@ -54,7 +54,7 @@ def scenes(nx: int = 128, t_end: float = 0.5):
     )
     return {
         "without cleaning": bare,
-        "constant c_h": bare.plus(ConstantCleaning()),
-        "Tricco & Price 2012": bare.plus(TriccoPrice2012()),
-        "with cleaning": bare.plus(Cleaning()),
+        "constant c_h": bare.plus(ConstantCleaning(f_clean=f_clean)),
+        "Tricco & Price 2012": bare.plus(TriccoPrice2012(f_clean=f_clean)),
+        "with cleaning": bare.plus(Cleaning(f_clean=f_clean)),
     }

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from ..terms import xi_of
+from ..terms import DivBSource, StressShift, xi_of
+from ..terms.hyperbolic import Hyperbolic
 
 ROUND = 1e-5  # a disturbance smaller than this share of its background drowns in the rounding of f32
 
@@ -13,11 +14,9 @@ def warnings(sim) -> list[str]:
     found = []
     if "Stress" in terms and "B" in columns:
         found += clumping(columns, terms)
-    if "Cleaning" in terms and "Stress" not in terms:
-        found.append("Cleaning without Stress: nothing feels the field that is cleaned; list Stress()")
-    for cure in ("DivBSource", "StressShift"):
-        if cure in terms and "Stress" not in terms:
-            found.append(f"{cure} without Stress: there is no force along B to take away; list Stress()")
+    of_stress = [name for name, term in terms.items() if isinstance(term, Hyperbolic | DivBSource | StressShift)]
+    if "Stress" not in terms:
+        found += [f"{name} without Stress: nothing feels the field it acts on; list Stress()" for name in of_stress]
     if sim.particles.word().itemsize == 4:
         found += rounding(columns)
     return found
