@@ -3,6 +3,8 @@
 import numpy as np
 
 from .errors import RunError
+from .rhs import add
+from .runtime import ti
 
 
 def fail(sim, what: str) -> None:
@@ -57,3 +59,28 @@ def loudest(sim, memory: int) -> str:
             )
             shares[type(term).__name__] = np.inf if not np.isfinite(out[0]) else float(out[0])
     return max(shares, key=shares.get) if shares else "no term"
+
+
+@ti.kernel
+def share(rhs: ti.template(), term: ti.template(), n: ti.i32, t: float, dt: float,
+          near: ti.types.ndarray(dtype=ti.i32, ndim=2), rows: ti.types.ndarray(dtype=ti.i32, ndim=1),
+          most: ti.types.ndarray(ndim=1), out: ti.types.ndarray(ndim=1)):  # fmt: skip
+    """What one term adds to the rates of one particle, summed in absolute value over the evolved members."""
+    for _ in range(1):
+        now = rhs.moment.now(t, dt, most)
+        i, sums = rhs.pairs.mine(n, rhs.looked), rhs.lanes.totals(rhs.totals)
+        if ti.static(term.has("pair")):
+            for block in range(rows[n] // rhs.lanes.width):
+                j = rhs.pairs.theirs(near, n, block, rhs.looked)
+                sums.add(term.pair(i, j, rhs.weights(i, j), now), term)
+        total = rhs.lanes.summed(sums)
+        if ti.static(term.has("local")):
+            add(total, term.local(rhs.p.state[n], now))
+        if ti.static(term.has("after")):
+            add(total, term.after(rhs.p.state[n], total, now))
+        out[0] = 0.0
+        for key in ti.static(rhs.p.names):
+            if ti.static(key in rhs.p.vectors):
+                out[0] += ti.abs(total[key]).sum()
+            else:
+                out[0] += ti.abs(total[key])

@@ -183,27 +183,3 @@ class RHS:
         for term in ti.static(self.sum_dt_terms):
             step = ti.min(step, term.longest(i, total, now))
         return step
-
-    @ti.kernel
-    def share(self, term: ti.template(), n: ti.i32, t: float, dt: float, near: ti.types.ndarray(dtype=ti.i32, ndim=2),
-              rows: ti.types.ndarray(dtype=ti.i32, ndim=1), most: ti.types.ndarray(ndim=1),
-              out: ti.types.ndarray(ndim=1)):  # fmt: skip
-        """What one term adds to the rates of one particle, summed in absolute value over the evolved members."""
-        for _ in range(1):
-            now = self.moment.now(t, dt, most)
-            i, sums = self.pairs.mine(n, self.looked), self.lanes.totals(self.totals)
-            if ti.static(term.has("pair")):
-                for block in range(rows[n] // self.lanes.width):
-                    j = self.pairs.theirs(near, n, block, self.looked)
-                    sums.add(term.pair(i, j, self.weights(i, j), now), term)
-            total = self.lanes.summed(sums)
-            if ti.static(term.has("local")):
-                add(total, term.local(self.p.state[n], now))
-            if ti.static(term.has("after")):
-                add(total, term.after(self.p.state[n], total, now))
-            out[0] = 0.0
-            for key in ti.static(self.p.names):
-                if ti.static(key in self.p.vectors):
-                    out[0] += ti.abs(total[key]).sum()
-                else:
-                    out[0] += ti.abs(total[key])

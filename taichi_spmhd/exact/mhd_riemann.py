@@ -7,6 +7,7 @@ import numpy as np
 
 from ..errors import InputError
 from .mhd_tubes import TUBES, Tube
+from .runge_kutta import rk4
 
 FAN = 200  # steps of the fourth-order integration through a rarefaction: round-off
 
@@ -84,12 +85,7 @@ def fan(left: tuple, right: tuple, wave: str, tube: Tube) -> tuple[np.ndarray, n
     step = np.log(behind[0] / ahead[0]) / FAN
     states = [np.array(ahead, dtype=float)]
     for _ in range(FAN):
-        u = states[-1]
-        k1 = field(u, wave, tube)
-        k2 = field(u + 0.5 * step * k1, wave, tube)
-        k3 = field(u + 0.5 * step * k2, wave, tube)
-        k4 = field(u + step * k3, wave, tube)
-        states.append(u + step / 6 * (k1 + 2 * k2 + 2 * k3 + k4))
+        states.append(rk4(lambda u: field(u, wave, tube), states[-1], step))
     states = np.array(states)
     s = np.array([u[2] + side(wave) * magnetosonic(u, wave, tube) for u in states])
     return (s, states) if side(wave) < 0 else (s[::-1], states[::-1])

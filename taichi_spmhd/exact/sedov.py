@@ -13,6 +13,7 @@ from math import pi
 import numpy as np
 
 from ..errors import InputError
+from .runge_kutta import rk4
 
 STEPS, INNERMOST = 2000, 1e-2  # of the integration in ln lambda; inside this radius P is uniform and rho vanishes
 
@@ -66,12 +67,7 @@ def profile(gamma: float, dim: int) -> np.ndarray:
     step = np.log(INNERMOST) / STEPS
     rows = [np.array([1.0, 2 / (gamma + 1), (gamma + 1) / (gamma - 1), 2 / (gamma + 1)])]
     for _ in range(STEPS):
-        y = rows[-1]
-        k1 = slope(y, gamma, dim)
-        k2 = slope(y + 0.5 * step * k1, gamma, dim)
-        k3 = slope(y + 0.5 * step * k2, gamma, dim)
-        k4 = slope(y + step * k3, gamma, dim)
-        rows.append(y + step / 6 * (k1 + 2 * k2 + 2 * k3 + k4))
+        rows.append(rk4(lambda y: slope(y, gamma, dim), rows[-1], step))
     return np.array(rows)
 
 

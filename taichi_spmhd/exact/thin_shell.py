@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..errors import InputError
+from .runge_kutta import rk4
 
 STEPS = 400  # of Runge-Kutta to the latest time; 50 give eight digits
 
@@ -49,17 +50,9 @@ def thin_shell(t, hot: tuple = (0.01, 10.0), cold: tuple = (1.0, 0.1), X0: float
 
     s, dt = np.zeros_like(times), times / STEPS
     for _ in range(STEPS):
-        s = s + step(speed, s, dt)
+        s = rk4(speed, s, dt)  # every entry has its own step
     v = speed(s)
     return Shell(X0 + s, v, P_0 * X0 / (X0 + s), rho_c * v**2 + P_c)
-
-
-def step(rate, s: np.ndarray, dt: np.ndarray) -> np.ndarray:
-    """The change of s over dt by the classical Runge-Kutta method; every entry has its own step."""
-    first = rate(s)
-    second = rate(s + 0.5 * dt * first)
-    third = rate(s + 0.5 * dt * second)
-    return dt / 6 * (first + 2 * second + 2 * third + rate(s + dt * third))
 
 
 def shell_profile(x, t: float, hot: tuple = (0.01, 10.0), cold: tuple = (1.0, 0.1), X0: float = 0.2) -> dict:

@@ -14,3 +14,20 @@ def fast_speed(s, e):
     """
     along = 2.0 * s.cs * s.B.dot(e) / (s.vw * s.vw)
     return s.vw * ti.sqrt(0.5 + 0.5 * ti.sqrt(ti.max(1.0 - along * along / s.rho, 0.0)))
+
+
+class Directional:
+    """Signals between a pair run at vw, or with directional=True at c_f(e), along their line: to be added to a term."""
+
+    def look_along(self) -> None:
+        """Read what fast_speed looks at, if asked for it."""
+        if self.directional:
+            object.__setattr__(self, "reads", {**self.reads, **NEEDS})
+
+    @ti.func
+    def wave(self, s, e):
+        """The speed of the waves of particle s along e."""
+        if ti.static(self.directional):
+            return fast_speed(s, e)
+        else:
+            return s.vw

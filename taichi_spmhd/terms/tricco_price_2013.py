@@ -3,12 +3,12 @@ from dataclasses import dataclass
 from ..errors import InputError
 from ..runtime import ti
 from ..types import real, vec3
-from .fast_speed import NEEDS, fast_speed
+from .fast_speed import Directional
 from .resistivity import Resistivity
 
 
 @dataclass(frozen=True)
-class TriccoPrice2013(Resistivity):
+class TriccoPrice2013(Directional, Resistivity):
     """Resistivity with alpha_B = min( h |grad B|/|B|, alpha ) and the mean fast speed in place of |v_ij x e|
 
     v_B = (vw_i + vw_j)/2 - beta min(v_ij.e, 0), and of alpha_B the mean of the pair; |grad B| is the root of the sum
@@ -28,8 +28,7 @@ class TriccoPrice2013(Resistivity):
         super().__post_init__()
         if not 0 <= self.beta < 100:
             raise InputError(f"TriccoPrice2013: beta = {self.beta} must lie in 0..100; 0 is usual")
-        if self.directional:
-            object.__setattr__(self, "reads", {**self.reads, **NEEDS})
+        self.look_along()
 
     @ti.func
     def gather(self, i, j, w):
@@ -42,14 +41,6 @@ class TriccoPrice2013(Resistivity):
         x, y, z = sums.dB_dx, sums.dB_dy, sums.dB_dz
         steepness = ti.sqrt(x.dot(x) + y.dot(y) + z.dot(z))
         return ti.Struct(alpha_B=ti.min(i.h * steepness / (i.B.norm() + 1e-30), self.alpha))
-
-    @ti.func
-    def wave(self, s, e):
-        """The speed of the waves of particle s along e."""
-        if ti.static(self.directional):
-            return fast_speed(s, e)
-        else:
-            return s.vw
 
     @ti.func
     def alpha_v(self, i, j, w):

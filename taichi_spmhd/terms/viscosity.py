@@ -4,11 +4,11 @@ from ..errors import InputError
 from ..runtime import ti
 from ..types import real, vec3
 from .base import Term
-from .fast_speed import NEEDS, fast_speed
+from .fast_speed import Directional
 
 
 @dataclass(frozen=True)
-class Viscosity(Term):
+class Viscosity(Directional, Term):
     """dv_i/dt = - sum_j ( q_i Gi + q_j Gj ) e,   q = - rho/2 (alpha vw - beta mu) mu,   mu = min(v_ij.e, 0)
 
     Artificial viscosity for approaching pairs, so that shocks are spread over a few particles (lecture p. 21;
@@ -27,21 +27,12 @@ class Viscosity(Term):
         name = type(self).__name__
         if not (0 <= self.alpha < 100 and 0 <= self.beta < 100):
             raise InputError(f"{name}: alpha = {self.alpha} and beta = {self.beta} must lie in 0..100")
-        if self.directional:
-            object.__setattr__(self, "reads", {**self.reads, **NEEDS})
+        self.look_along()
 
     @ti.func
     def strength(self, s):
         """alpha of particle s."""
         return self.alpha
-
-    @ti.func
-    def wave(self, s, e):
-        """The speed of the waves of particle s along e."""
-        if ti.static(self.directional):
-            return fast_speed(s, e)
-        else:
-            return s.vw
 
     @ti.func
     def share(self, i, j):
