@@ -80,5 +80,5 @@ def head(made: dict) -> list[str]:
 def foot(made: dict) -> str:
     """The program, the machine and the day: seconds mean nothing without them."""
     day = datetime.datetime.now(datetime.timezone.utc).date()
-    threads = f"{made['threads']} threads, {made['precision']}"
+    threads = f"{made['threads']} thread{'s' if made['threads'] > 1 else ''}, {made['precision']}"
     return f"Made by taichi_spmhd {made['version']} on {hardware()}, {made['arch']}, {threads}, {day}."
