@@ -4,12 +4,24 @@ import json
 from argparse import ArgumentParser
 
 import pytest
+from test_cost_of_terms import PACKAGE, child, vector_share
 
 from taichi_spmhd import InputError
 from taichi_spmhd.bench import add_options, main
 from taichi_spmhd.bench.cases import CASES, known, scene, sizes
 from taichi_spmhd.bench.clocks import PHASES, Clocks
 from taichi_spmhd.bench.yardstick import EXPECTED, MARGIN, Yardstick
+
+VECTORS = """
+import sys
+from taichi_spmhd import runtime
+from taichi_spmhd.bench import cases
+from taichi_spmhd.simulation import Simulation
+
+runtime.init("cpu", sys.argv[1], 1)
+Simulation(cases.scene(sys.argv[2], 12)).begin()
+print("{}")
+"""
 
 
 def asked(*words):
@@ -93,4 +105,9 @@ def test_the_pair_loop_is_vectorised(tmp_path, precision):
         made = rows(tmp_path, "--quick", "--threads", "1", "--cases", *slow) if slow else []
         costs = {row["case"]: row["rates_per_yardstick"] for row in made}
         slow = {case: cost for case, cost in costs.items() if cost > MARGIN * EXPECTED[case]}
-    assert not slow, f"rates/yardstick {slow} against {EXPECTED}: look for a branch or a running maximum in a term"
+    # the ratios are those of one processor; on another the bare loop may gain more from its vectors than the terms do.
+    # What counts then is whether the terms' arithmetic is done in vectors: measured .9 and more, without them 0
+    for case in slow:
+        child(PACKAGE.parent, tmp_path / case, VECTORS, precision, case)
+        share = vector_share(tmp_path / case)
+        assert share > 0.6, f"rates/yardstick {slow} against {EXPECTED}, {share:.0%} in vectors: look for a branch"

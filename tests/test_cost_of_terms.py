@@ -86,6 +86,12 @@ def arithmetic(folder: Path) -> int:
     return sum(int(width or 1) for width in ARITHMETIC.findall(rates_kernel(folder)))
 
 
+def vector_share(folder: Path) -> float:
+    """How much of the arithmetic is done by vector instructions."""
+    widths = [int(width or 1) for width in ARITHMETIC.findall(rates_kernel(folder))]
+    return sum(width for width in widths if width > 1) / sum(widths)
+
+
 def tree_without_cleaning(folder: Path) -> Path:
     """A copy of the package without cleaning.py and its mention; the benchmark, which lists the term, stays behind."""
     copy = folder / "taichi_spmhd"
