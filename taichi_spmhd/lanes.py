@@ -108,11 +108,11 @@ class Lanes:
 
     @ti.func
     def speed(self, most):
-        """The running maximum as a number."""
-        found = most
+        """The running maximum as a number. Returned from both sides: a variable that held an integer stays one."""
         if ti.static(self.width == 1):
-            found = ti.bit_cast(most, ti.f32)
-        return ti.cast(found, float)
+            return ti.cast(ti.bit_cast(most, ti.f32), float)
+        else:
+            return most
 
     @ti.func
     def across(self, part):
