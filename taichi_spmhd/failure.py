@@ -47,16 +47,8 @@ def loudest(sim, memory: int) -> str:
     for term in sim.rhs.parts:
         if term.has("pair") or term.has("local") or term.has("after"):
             out = np.zeros(1, sim.particles.word)
-            sim.rhs.share(
-                term,
-                memory,
-                sim.time + sim.dt,
-                sim.dt,
-                sim.neighbours.near,
-                sim.neighbours.count,
-                sim.rhs.moment.most,
-                out,
-            )
+            near, most = sim.neighbours, sim.rhs.moment.most
+            share(sim.rhs, term, memory, sim.time + sim.dt, sim.dt, near.near, near.count, most, out)
             shares[type(term).__name__] = np.inf if not np.isfinite(out[0]) else float(out[0])
     return max(shares, key=shares.get) if shares else "no term"
 
