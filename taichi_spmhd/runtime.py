@@ -6,6 +6,7 @@ import os
 import sys
 
 from .errors import InputError
+from .tracing import remember
 
 _LIBX11 = (
     "taichi cannot be imported because the system library libX11 is missing "
@@ -22,6 +23,7 @@ def _import_taichi():
         if "libX11" in str(error):
             raise InputError(_LIBX11) from error
         raise
+    remember(taichi)
     taichi.set_logging_level(taichi.ERROR)  # a library that is not there is our sentence, not Taichi's
     return taichi
 
