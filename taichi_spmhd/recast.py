@@ -73,8 +73,8 @@ def recast(sim, scene: Scene) -> None:
     sim.scene = scene
     if sim.begun:
         exchange(sim, before)
-        books.carry(sim)
         again(sim)
+        books.carry(sim)
 
 
 def exchange(sim, before: tuple) -> None:
@@ -149,6 +149,40 @@ class Books:
         after = Books.of(sim)
         sim.ledger.E0 += after.E - self.E
         sim.ledger.p0 = sim.ledger.p0 + (after.p - self.p)
+
+
+def successor(sim, scene: Scene, spare: tuple):
+    """A new simulation of the scene that starts from the state of another: for what needs other members, or a kernel.
+
+    Raises InputError where the scene cannot be simulated from that state; the other one is as it was.
+    """
+    columns, books = sim.columns(), Books.of(sim)
+    start = {name: columns[name] for name in ("x", "m", *state.KNOWN) if name in columns and name != "mass"}
+    new = type(sim)(scene, start, spare)
+    try:
+        new.begin()
+        inherit(new, columns)
+        new.time, new.steps, new.floors, new.dt = sim.time, sim.steps, sim.floors, sim.dt
+        new.ledger = replace(sim.ledger)
+        again(new)
+        books.carry(new)
+    except BaseException:
+        new.close()
+        raise
+    return new
+
+
+ANEW = {"x", "v", "m", "h", "hinv", "g", "rho", "Omega", "x0", "h0", "b", "B", "u", "E", "P"}  # follow from the start
+
+
+def inherit(new, columns: dict) -> None:
+    """What a simulation kept beside the primitive state: the ledger's leaks, alpha of a switch, psi."""
+    table, ids = new.particles.table()
+    names = {name for part in new.parts for name in (*part.evolves, *part.keeps)} | {"held"}
+    for name, width, first in new.particles.layout:
+        if name in names - ANEW and name in columns:
+            table[:, first : first + width] = columns[name].reshape(len(ids), -1)[ids]
+    new.particles.admit(table, ids)
 
 
 def restart(sim) -> None:

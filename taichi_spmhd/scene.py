@@ -85,9 +85,12 @@ class Scene:
         """The same scene with more terms."""
         return replace(self, terms=(*self.terms, *terms))
 
-    def without(self, *kinds: type) -> "Scene":
-        """The same scene without the terms of these classes."""
-        return replace(self, terms=tuple(term for term in self.terms if not isinstance(term, kinds)))
+    def without(self, *kinds: type | str) -> "Scene":
+        """The same scene without the terms of these classes, given as classes or by their names."""
+        names = {kind for kind in kinds if isinstance(kind, str)}
+        classes = tuple(kind for kind in kinds if not isinstance(kind, str))
+        kept = (t for t in self.terms if not isinstance(t, classes) and type(t).__name__ not in names)
+        return replace(self, terms=tuple(kept))
 
     def tuned(self, term: str, **numbers) -> "Scene":
         """The same scene with other numbers in the term of this class name. Raises InputError where it has none."""
