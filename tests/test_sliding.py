@@ -140,7 +140,7 @@ def test_rates_after_a_switch_are_those_of_a_scene_without_the_term(vortex, begu
         scale = {
             "leak_v": "v",
             "leak_E": "v",
-        }  # the leaks vanish on a lattice, but for round-off of what they come from
+        }  # zero on a lattice, but for the round-off of v
         found, wanted = begun.rates(), other.rates()
         for name, values in wanted.items():
             size = np.abs(wanted[scale.get(name, name)]).max()

@@ -4,7 +4,6 @@ What is simulated depends on the wishes that were granted and on nothing else: n
 size. A run that nobody steers has the bits of `Simulation.step` called as often.
 """
 
-import time
 from pathlib import Path
 
 from ..errors import InputError, RunError
