@@ -177,10 +177,9 @@ def drawable(wish: dict, setup: dict) -> dict:
     """An axis that the member has."""
     sizes = {member["name"]: member["components"] for member in setup["members"]}
     name = wish.get("member", setup["draw"]["member"])
-    if wish.get("axis") is not None and wish["axis"] >= sizes.get(name, 1):
+    size = sizes.get(name, 1)
+    if wish.get("axis") is not None and (size == 1 or wish["axis"] >= size):
         raise InputError(f"axis: {name} has no component {wish['axis']}; give null")
-    if wish.get("axis") is not None and sizes.get(name, 1) == 1:
-        raise InputError(f"axis: {name} is a scalar; give null")
     return wish
 
 

@@ -140,13 +140,15 @@ class Handler(BaseHTTPRequestHandler):
 
     def refuse(self, code: int, why: str, **headers) -> None:
         """One line, and an end: what else was sent is not read."""
-        self.close_connection = True
+        self.close_connection, self.request_version = True, "HTTP/1.1"  # the library answers some without a status line
         self.send(code, "application/json", json.dumps({"error": why}).encode(), {**headers, "Connection": "close"})
 
     def send_error(self, code: int, message: str | None = None, explain: str | None = None) -> None:
         """What the library refuses: unreadable request lines and headers, other methods."""
-        other = code == 501 and self.command is not None
-        self.refuse(405, "GET and POST only", Allow="GET, POST") if other else self.refuse(code, message or "refused")
+        if code == 501 and self.command:
+            self.refuse(405, "GET and POST only", Allow="GET, POST")
+        else:
+            self.refuse(code, "this is no request that can be read")
 
     def send_json(self, code: int, value) -> None:
         self.send(code, "application/json", json.dumps(value, allow_nan=False).encode())
