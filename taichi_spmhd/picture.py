@@ -10,6 +10,10 @@ from .errors import InputError
 
 DRAW = ("particles", "nearest", "sph")
 VECTORS = ("x", "v", "B", "b")
+PSEUDO = {  # what is worked out for pictures alone: symbol, tex, colour map
+    "div_B": ("h|div B|/|B|", r"$h\,|\nabla\cdot B|\,/\,|B|$", "inferno"),
+    "gap": ("gap / spacing", "nearest neighbour, in spacings", "plasma_r"),
+}
 GREEK = ("rho", "psi", "xi", "alpha", "eta", "Omega", "phi", "gamma", "beta")
 AXES = "xyz"
 
@@ -24,12 +28,14 @@ def suggestion(name: str, known) -> str:
 class Picture:
     """What to draw of every particle, and how.
 
-    member: a particle member ("rho", "B", "P", "v", ...) or "div_B", which is h |div B| / |B|.
+    member: a particle member ("rho", "B", "P", "v", ...), or "div_B", which is h |div B| / |B|, or "gap", the distance
+            to the nearest neighbour in spacings (m/rho)^(1/d).
     axis:   0, 1, 2 for one component of a vector; None for its magnitude.
     limits: (lo, hi) of the colours; None takes them from the first frame and keeps them, so that a film never flickers.
     draw:   "particles" (discs; what a tensile scene needs, smoothing hides the clumps), "nearest" (each pixel has the
             value of its nearest particle) or "sph" (normalised interpolation with the particles' own h).
-    colours: a matplotlib colour map; None: RdBu_r for limits symmetric about 0, inferno for div_B, else viridis.
+    colours: a matplotlib colour map; None: RdBu_r for limits symmetric about 0, inferno for div_B, plasma_r for gap
+            (clumps glow), else viridis.
     log:    logarithmic colours.
     gaps:   True adds the histogram of nearest-neighbour distances and "n % closer than half a spacing".
     width:  largest width of a frame in pixels; the height follows from the box.
@@ -65,7 +71,7 @@ class Picture:
             cure = f'Picture("{vector}", axis={AXES.index(axis)})'
             raise InputError(f"Picture: {self.member!r} is a component; write {cure}")
         if not self.member.isidentifier():
-            known = ("rho", "div_B", "B", "P", "v", "u", "h", "psi")
+            known = ("rho", "div_B", "gap", "B", "P", "v", "u", "h", "psi")
             raise InputError(f"Picture: {self.member!r} is not the name of a member{suggestion(self.member, known)}")
         if self.axis is not None and (isinstance(self.axis, bool) or self.axis not in (0, 1, 2)):
             raise InputError(f"Picture: axis={self.axis!r} must be 0, 1 or 2, or None for the magnitude")
@@ -93,8 +99,8 @@ class Picture:
     @property
     def symbol(self) -> str:
         """Plain text for captions: B_z, |v|, rho, h|div B|/|B|."""
-        if self.member == "div_B":
-            return "h|div B|/|B|"
+        if self.member in PSEUDO:
+            return PSEUDO[self.member][0]
         if self.axis is not None:
             return f"{self.member}_{AXES[self.axis]}"
         return f"|{self.member}|" if self.member in VECTORS else self.member
@@ -102,8 +108,8 @@ class Picture:
     @property
     def tex(self) -> str:
         """The same as matplotlib's mathtext, for axes and colour bars."""
-        if self.member == "div_B":
-            return r"$h\,|\nabla\cdot B|\,/\,|B|$"
+        if self.member in PSEUDO:
+            return PSEUDO[self.member][1]
         name, _, index = self.member.partition("_")
         letter = f"\\{name}" if name in GREEK else name
         if index:
@@ -116,7 +122,7 @@ class Picture:
         """The colour map for these limits."""
         if self.colours is not None:
             return self.colours
-        if self.member == "div_B":
-            return "inferno"
+        if self.member in PSEUDO:
+            return PSEUDO[self.member][2]
         lo, hi = limits
         return "RdBu_r" if abs(lo + hi) <= 1e-6 * (hi - lo) else "viridis"

@@ -10,29 +10,37 @@ from .panels import Panels
 CURVE = 801  # points of an exact curve
 
 
-def _member(sim, name: str) -> np.ndarray:
-    """sim[name], or an InputError that names the member."""
+def _member(members, name: str) -> np.ndarray:
+    """members[name], or an InputError that names the member. members: a simulation, or its columns."""
     try:
-        return np.asarray(sim[name])
+        return np.asarray(members[name])
     except KeyError as error:
         raise InputError(f"Picture: no member {name!r}; `spmhd show` lists those of the scene") from error
 
 
-def _div_B(sim) -> np.ndarray:
+def _div_B(sim, members=None) -> np.ndarray:
     from ..diagnostics import div_B  # diagnostics come with the simulation; pictures alone do without
 
-    return np.asarray(div_B(sim))
+    return np.asarray(div_B(sim, members))
 
 
-def _gaps(sim) -> np.ndarray:
+def _gaps(sim, members=None) -> np.ndarray:
     from ..diagnostics import nearest_gaps
 
-    return np.asarray(nearest_gaps(sim))
+    return np.asarray(nearest_gaps(sim, members))
 
 
-def values(sim, picture: Picture) -> np.ndarray:
-    """What the picture shows of each particle, (N,): a scalar, a component, a magnitude, or h |div B| / |B|."""
-    return chosen(_div_B(sim) if picture.member == "div_B" else _member(sim, picture.member), picture)
+WORKED_OUT = {"div_B": _div_B, "gap": _gaps}  # for pictures alone: no member of the particles
+
+
+def values(sim, picture: Picture, members: dict | None = None) -> np.ndarray:
+    """What the picture shows of each particle, (N,): a scalar, a component, a magnitude, h |div B| / |B| or the gap.
+
+    members: sim.columns() of the present, where it was read already.
+    """
+    if picture.member in WORKED_OUT:
+        return chosen(WORKED_OUT[picture.member](sim, members), picture)
+    return chosen(_member(sim if members is None else members, picture.member), picture)
 
 
 def chosen(member: np.ndarray, picture: Picture) -> np.ndarray:
@@ -61,12 +69,16 @@ def exact_curve(sim, picture: Picture) -> np.ndarray | None:
     return np.column_stack([points[:, 0], chosen(np.asarray(solution[picture.member]), picture)])
 
 
-def columns(sim, picture: Picture) -> dict:
-    """The arrays Panels.frame takes: x (N, d), values, h, spacing = (m/rho)^(1/d); gaps and exact curve if any."""
-    spacing = (_member(sim, "m") / _member(sim, "rho")) ** (1.0 / sim.dim)
-    made = {"x": _member(sim, "x"), "values": values(sim, picture), "h": _member(sim, "h"), "spacing": spacing}
-    made["exact"] = exact_curve(sim, picture)
-    return made | {"gaps": _gaps(sim)} if picture.gaps else made
+def columns(sim, picture: Picture, members: dict | None = None) -> dict:
+    """The arrays Panels.frame takes: x (N, d), values, h, spacing = (m/rho)^(1/d); gaps and exact curve if any.
+
+    members: sim.columns() of the present, where it was read already.
+    """
+    source = sim if members is None else members
+    spacing = (_member(source, "m") / _member(source, "rho")) ** (1.0 / sim.dim)
+    made = {"x": _member(source, "x"), "values": values(sim, picture, members)}
+    made |= {"h": _member(source, "h"), "spacing": spacing, "exact": exact_curve(sim, picture)}
+    return made | {"gaps": _gaps(sim, members)} if picture.gaps else made
 
 
 def snapshot(
