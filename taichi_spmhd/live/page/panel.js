@@ -2,6 +2,7 @@
 import { axes, MARGIN, ranges } from "./axes.js";
 import { shown } from "./drawn.js";
 import { draw, make, write } from "./dom.js";
+import { greek } from "./greek.js";
 import { pointer } from "./pointer.js";
 import { readout } from "./readout.js";
 import { live } from "./store.js";
@@ -50,7 +51,7 @@ export class Panel {
       side.style.height = `${h}px`;
     }
     const { label, variant } = live.setup.panels[this.k];
-    const title = live.setup.panels.length > 1 ? `${label}: ${variant}` : variant;
+    const title = greek(live.setup.panels.length > 1 ? `${label}: ${variant}` : variant);
     this.marks.replaceChildren(...axes(w, h, title));
   }
 

@@ -100,7 +100,7 @@ function whyFixed(part) {
 /** Equation and advice, on demand. */
 function explained(part, panel) {
   const box = make("details", { id: `explain-${panel}-${part.name}`, class: "explain" });
-  box.append(make("summary", { text: word("explain"), "aria-label": `${word("explain")}: ${partName(part)}` }));
+  box.append(make("summary", { text: word("explain"), title: word("explain.of", { name: partName(part) }) }));
   box.append(make("p", { class: "equation" }, equation(part.equation)));
   if (part.advice) box.append(make("p", { class: "prose", text: greek(part.advice) }));
   const id = `switch-${panel}-${part.name}-why`;

@@ -38,7 +38,7 @@ function lay() {
     shownPanels = made.slice(0, number);
     byId("panels").replaceChildren(...shownPanels.map((panel) => panel.element));
   }
-  byId("panels").dataset.count = number;
+  document.body.dataset.panels = number;
   const wide = byId("pictures").clientWidth - 8;
   const bar = colourBar(Math.min(wide, 620));
   byId("colours").replaceChildren(...(bar ? [bar] : []));

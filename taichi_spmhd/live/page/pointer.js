@@ -121,7 +121,7 @@ function brush(panel, at) {
 /** Ask for the particle at a place and show its members in a small table beside it. */
 async function reading(panel, at, table) {
   const { x, y } = asked(at);
-  const found = await getJSON(`particle?panel=${panel.k}&x=${x}&y=${y}`).catch(() => null);
+  const found = await getJSON(`particle?panel=${panel.k}&x=${x.toPrecision(7)}&y=${y.toPrecision(7)}`).catch(() => null);
   if (!found?.members || tool.name !== "look" || !panel.over.childElementCount) return;
   const cell = (value) => (Array.isArray(value) ? value.map((one) => short(one)).join(", ") : short(value));
   const rows = Object.entries(found.members).map(([name, value]) =>

@@ -67,6 +67,7 @@ function form(setup) {
   const rows = setup.parameters.map((parameter, k) => labelled(greek(parameter.name), inputs[k]));
   const apply = make("button", { id: "apply", type: "submit", text: word("apply") });
   const box = make("form", { id: "parameters", "aria-label": word("parameters") }, ...rows, apply);
+  const folded = make("details", { id: "parameters-box" }, make("summary", { text: word("parameters") }), box);
   box.addEventListener("submit", (event) => {
     event.preventDefault();
     const set = {};
@@ -76,7 +77,7 @@ function form(setup) {
     });
     send({ do: "choose", set });
   });
-  return box;
+  return folded;
 }
 
 /** A field for one parameter, by its kind. */
