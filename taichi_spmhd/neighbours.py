@@ -66,6 +66,10 @@ class Neighbours(Search):
             setattr(self, name, story[name])
         return other
 
+    def forget(self) -> None:
+        """As before the first build."""
+        self.builds, self.age, self.pad, self.moved = 0, 0, PADS[0], 0.0
+
     def rebuild(self) -> None:
         """The list as it was when positions x0 were noted: for a state read from disk, already in memory order."""
         self.cells.bin(self.pad * self.support)

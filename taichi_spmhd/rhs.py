@@ -34,10 +34,9 @@ def looked_at(parts: tuple, names: tuple) -> tuple:
 class RHS:
     """Evaluates the rates of all evolved members and the longest stable time step."""
 
-    def __init__(self, particles, neighbours, pairs, density, choice, kernel, parts, cour, force):
+    def __init__(self, particles, neighbours, pairs, density, choice, kernel, parts, stepper):
         self.p, self.near, self.pairs, self.density = particles, neighbours, pairs, density
-        self.choice, self.kernel, self.parts = choice, kernel, parts
-        self.cour, self.force = cour, force
+        self.choice, self.kernel, self.parts, self.stepper = choice, kernel, parts, stepper
         self.gathers = {k: v for part in parts for k, v in part.gathers.items()}
         self.totals = {**particles.evolved, **{k: v for part in parts for k, v in part.sums.items()}}
         self.lanes, self.looked = pairs.lanes, looked_at(parts, pairs.names)
@@ -176,8 +175,8 @@ class RHS:
     @ti.func
     def step_of(self, i, total, fastest, now):
         """min of C_cour h / v_sig, C_force sqrt(h / |dv/dt|) and what the terms allow."""
-        step = self.cour * i.h / (ti.max(i.vw, fastest) + TINY)
-        step = ti.min(step, self.force * ti.sqrt(i.h / (total.v.norm() + TINY)))
+        step = self.stepper.cour * i.h / (ti.max(i.vw, fastest) + TINY)
+        step = ti.min(step, self.stepper.force * ti.sqrt(i.h / (total.v.norm() + TINY)))
         for term in ti.static(self.dt_terms):
             step = ti.min(step, term.max_dt(i, now))
         for term in ti.static(self.sum_dt_terms):

@@ -11,8 +11,9 @@ from .box import Box, as_box
 from .density import SumMass, Summation
 from .energy import Energy, Thermal
 from .eos import Adiabatic, Radiating
+from .errors import InputError
 from .kernels import CubicSpline, Kernel
-from .picture import Picture
+from .picture import Picture, suggestion
 from .scene_checks import check, check_kinds, numbers
 from .stepper import LeapfrogKDK
 from .terms import Term
@@ -84,9 +85,19 @@ class Scene:
         """The same scene with more terms."""
         return replace(self, terms=(*self.terms, *terms))
 
-    def without(self, *kinds: type) -> "Scene":
-        """The same scene without the terms of these classes."""
-        return replace(self, terms=tuple(term for term in self.terms if not isinstance(term, kinds)))
+    def without(self, *kinds: type | str) -> "Scene":
+        """The same scene without the terms of these classes, given as classes or by their names."""
+        names = {kind for kind in kinds if isinstance(kind, str)}
+        classes = tuple(kind for kind in kinds if not isinstance(kind, str))
+        kept = (t for t in self.terms if not isinstance(t, classes) and type(t).__name__ not in names)
+        return replace(self, terms=tuple(kept))
+
+    def tuned(self, term: str, **numbers) -> "Scene":
+        """The same scene with other numbers in the term of this class name. Raises InputError where it has none."""
+        names = [type(listed).__name__ for listed in self.terms]
+        if term not in names:
+            raise InputError(f"terms: no {term} to tune{suggestion(term, names)}; there are {', '.join(names)}")
+        return replace(self, terms=tuple(replace(t, **numbers) if type(t).__name__ == term else t for t in self.terms))
 
     def but(self, **changes) -> "Scene":
         """The same scene with other choices or other numbers."""

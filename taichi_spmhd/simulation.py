@@ -14,6 +14,7 @@ from .pairs import Pairs
 from .particles import Particles
 from .rhs import RHS
 from .scene import Scene
+from .sliding import Sliding
 from .smoothing import Density
 from .stepper import Advance
 from .types import integer
@@ -26,10 +27,12 @@ class Simulation:
 
         sim = Simulation(scene); sim.run(until=0.5); sim["rho"], sim.time, sim.steps, len(sim)
 
+    spare: None, and all numbers are compiled in; or, for a live run (live/), parts that may be switched on later, whose
+    members are allocated too: then numbers slide (sliding.py) and terms can be switched (recast.py).
     Raises InputError for a start that cannot be simulated, RunError (from step, run, frames) when a run goes wrong.
     """
 
-    def __init__(self, scene: Scene, start: dict | None = None):
+    def __init__(self, scene: Scene, start: dict | None = None, spare: tuple | None = None):
         runtime.ensure()
         self.scene, self.dim = scene, scene.dim
         self.time, self.steps, self.floors, self.ill = 0.0, 0, 0, 0
@@ -38,31 +41,45 @@ class Simulation:
         self.timed, self.warm, self.ledger = 0, False, None  # steps whose seconds count; kernels compiled
         values = start if start is not None else state.opening(scene)
         try:
-            self._build(scene, len(values["m"]))
+            self._build(scene, len(values["m"]), spare)
             state.fill(self, values)
         except BaseException:
             self.close()
             raise
 
-    def _build(self, scene: Scene, n: int) -> None:
+    def _build(self, scene: Scene, n: int, spare: tuple | None) -> None:
         kernel = scene.kernel.at(self.dim)
         state.check_box(scene, kernel, n)
-        self.parts = tuple(part.at(self.dim) for part in scene.parts)
-        members = {k: v for part in self.parts for k, v in part.members().items()}
-        evolved = {k: v for part in self.parts for k, v in part.evolves.items()}
+        parts = (*(part.at(self.dim) for part in scene.parts), *(spare or ()))
+        members = {k: v for part in parts for k, v in part.members().items()}
+        evolved = {k: v for part in parts for k, v in part.evolves.items()}
         frozen = scene.boundary.frozen
         self.particles = p = Particles(n, self.dim, members | ({"held": integer} if frozen else {}), evolved)
         self.saved = scene.stepper.prepare(p)
         p.companions.append((p.old, p.rate))
+        self.sliding = None if spare is None else Sliding((*parts, scene.stepper), p.tree)
         p.finish()
         p.ghost()
         self.neighbours = Neighbours(p, scene.box, scene.boundary, kernel)
-        self.pairs = Pairs(p, scene.box, scene.boundary, lanes())
+        # a live run is compiled again and again: one lane compiles five times faster than eight
+        self.pairs = Pairs(p, scene.box, scene.boundary, lanes() if spare is None else 1)
         self.one_by_one = Pairs(p, scene.box, scene.boundary, 1)  # what is measured once a frame: compiles much faster
         self.density = Density(p, self.pairs, kernel, scene.density)
-        cour, force = scene.stepper.cour, scene.stepper.force
-        self.rhs = RHS(p, self.neighbours, self.pairs, self.density, scene.density, kernel, self.parts, cour, force)
+        self.wire(self.right_hand_side(scene))
         self.advance = Advance(p, self.pairs, bool(frozen))
+
+    def right_hand_side(self, scene: Scene) -> RHS:
+        """What evaluates the rates of a scene's terms on these particles."""
+        parts, stepper = tuple(part.at(self.dim) for part in scene.parts), scene.stepper
+        if self.sliding:
+            self.sliding.write()
+            parts, stepper = tuple(map(self.sliding.loose, parts)), self.sliding.loose(stepper)
+        near = self.neighbours
+        return RHS(self.particles, near, self.pairs, self.density, scene.density, near.kernel, parts, stepper)
+
+    def wire(self, rhs: RHS) -> None:
+        """From now on these terms act."""
+        self.rhs, self.parts = rhs, rhs.parts
 
     def begin(self) -> None:
         """The first evaluation: density, evolved members from the primitive ones, rates. Done by itself when needed."""

@@ -109,6 +109,8 @@ class Advance:
 class Stepper(Choice):
     """What steppers share: the safety factors of the time step, C_cour h / v_sig and C_force sqrt(h/|a|)."""
 
+    live = {"cour": (0.05, 1.0), "force": (0.05, 1.0)}
+
     def __post_init__(self):
         if not (0 < self.cour <= 1 and 0 < self.force <= 1):
             raise InputError(f"{type(self).__name__}: cour = {self.cour} and force = {self.force} must lie in (0, 1]")

@@ -11,6 +11,7 @@ A part is a frozen dataclass. Everything below is optional.
     mosts    {name: type}    numbers of which its `most` gives each particle's, and `now` holds the largest
     weighs   (name, ...)     weights beside w.e, w.r, w.Gi, w.Gj that its `pair` uses (density.py: F, near)
     rank     number          parts of higher rank open, and run `after`, later
+    live     {name: (low, high)}   numbers that may slide while a live run goes on, and the range that teaches something
 
     among(self, parts) -> part           the part beside the others of its scene (plain Python)
     at(self, dim) -> part                the part for a number of dimensions (plain Python, when a Simulation is built)
@@ -31,7 +32,8 @@ A part is a frozen dataclass. Everything below is optional.
 now.dt = the step being taken, 0 before the first, and the largest numbers of `most`). What changes B by other ways than
 induction is stated as `b`, a rate of B/rho, under `sums`: Induction knows what to do with it. A `pair` is branch-free
 (min, max, select) and vanishes by itself for j = i and outside the support, because it is built from w.Gi, w.Gj and
-differences. Numbers of a frozen term are compile-time constants.
+differences. Numbers of a frozen term are compile-time constants, except in a live run, where those named in `live` are
+read from the device (sliding.py): use them in arithmetic, never in ti.static.
 """
 
 from dataclasses import fields
@@ -49,6 +51,7 @@ class Part:
     mosts: dict = {}
     weighs: tuple = ()
     rank: int = 0
+    live: dict = {}
 
     def among(self, parts: tuple) -> "Part":
         """This part beside the others of its scene."""

@@ -22,6 +22,7 @@ class Conductivity(Term):
     alpha: float = 1.0
     v_sig: str = "pressure"
     reads, evolves = {"P": real, "rho": real, "u": real}, {}
+    live = {"alpha": (0.0, 3.0)}
 
     def __post_init__(self):
         if not 0 <= self.alpha < 100:

@@ -35,6 +35,7 @@ class ConstantCleaning(Hyperbolic):
     keeps = {"psi": real}  # at the end of the last step: for pictures
     evolves, sums = {"y": real, "leak_E": real}, {"b": vec3}
     mosts = {"most_per_dx": real, "most_vw": real}
+    live = {"alpha": (0.0, 2.0), "f_clean": (1.0, 5.0)}
 
     def __post_init__(self):
         if not (0 <= self.alpha < 100 and 1 <= self.f_clean < 100 and 0 < self.C_CFL <= 1):

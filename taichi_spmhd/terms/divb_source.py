@@ -21,7 +21,7 @@ class DivBSource(Term):
     """
 
     xi: float | XiRule = 1.0
-    sums = {"S": real}
+    sums, live = {"S": real}, {"xi": (0.0, 1.0)}
     evolves = {"v": vec3, "leak_v": vec3, "leak_E": real}
 
     def __post_init__(self):

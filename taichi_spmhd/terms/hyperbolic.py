@@ -33,7 +33,7 @@ class OwnSpeed(Hyperbolic):
     sigma: float = 0.0  # 0: by dimension
     f_clean: float = 1.0
     reads = {"B": vec3, "v": vec3, "rho": real, "h": real, "vw": real}
-    sums = {"b": vec3}
+    sums, live = {"b": vec3}, {"sigma": (0.05, 3.0), "f_clean": (0.25, 5.0)}
 
     def __post_init__(self):
         if not (0 <= self.sigma < 100 and 0 < self.f_clean < 100):

@@ -18,6 +18,7 @@ class LectureViscosity(Viscosity):
 
     beta: float = 4.0
     reads, weighs = {**Viscosity.reads, "Omega": real}, ("F",)  # Omega: F is without it
+    live = {"alpha": (0.0, 3.0), "beta": (0.0, 12.0)}
 
     @ti.func
     def push(self, i, j, w, mu):

@@ -21,6 +21,7 @@ class MorrisMonaghan(Viscosity):
     reads = {**Viscosity.reads, "h": real, "alpha": real}
     evolves = {**Viscosity.evolves, "alpha": real}
     sums = {"closing": real}
+    live = {**Viscosity.live, "alpha_min": (0.0, 1.0), "decay": (0.0, 1.0)}
 
     def __post_init__(self):
         super().__post_init__()

@@ -23,6 +23,7 @@ class Repulsion(Term):
     n: int = 4
     reads = {"B": vec3, "Pt": real, "h": real, "v": vec3}
     evolves, sums, weighs = {"v": vec3, "leak_E": real}, {"push": vec3}, ("near",)
+    live = {"eps": (0.0, 4.0)}
 
     def __post_init__(self):
         if not 0 <= self.eps <= 100:

@@ -19,6 +19,7 @@ class Resistivity(Term):
 
     alpha: float = 1.0
     reads, sums = {"B": vec3, "v": vec3, "rho": real}, {"b": vec3, "exchange": real}
+    live = {"alpha": (0.0, 3.0)}
 
     def __post_init__(self):
         if not 0 <= self.alpha < 100:

@@ -25,7 +25,7 @@ class StressShift(Term):
     lift: float = 1.0
     reads = {"B": vec3, "P": real, "rho": real, "h": real, "v": vec3}
     mosts, sums = {"T0": real}, {"bare": vec3}
-    evolves = {"v": vec3, "leak_E": real}
+    evolves, live = {"v": vec3, "leak_E": real}, {"lift": (0.0, 4.0)}
 
     def __post_init__(self):
         if not 0 <= self.lift <= 1e6:

@@ -20,6 +20,7 @@ class CullenDehnen(Flow, Viscosity):
 
     fast: bool = False
     reads = {**Viscosity.reads, "cs": real, "h": real}
+    live = {"alpha": (0.05, 3.0), "beta": (0.0, 6.0)}
     keeps = {"alpha": real, "div_v": real, "div_v_before": real}
 
     def __post_init__(self):

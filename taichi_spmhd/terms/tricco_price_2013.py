@@ -21,7 +21,7 @@ class TriccoPrice2013(Directional, Resistivity):
     beta: float = 0.0
     directional: bool = False
     reads = {**Resistivity.reads, "vw": real, "h": real}
-    makes = {"alpha_B": real}
+    makes, live = {"alpha_B": real}, {"alpha": (0.0, 3.0), "beta": (0.0, 6.0)}
     gathers = {"dB_dx": vec3, "dB_dy": vec3, "dB_dz": vec3}
 
     def __post_init__(self):

@@ -22,6 +22,7 @@ class Viscosity(Directional, Term):
     beta: float = 2.0
     directional: bool = False
     reads, evolves = {"vw": real, "rho": real, "v": vec3}, {"v": vec3}
+    live = {"alpha": (0.0, 3.0), "beta": (0.0, 6.0)}
 
     def __post_init__(self):
         name = type(self).__name__

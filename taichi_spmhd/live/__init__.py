@@ -1,0 +1,1 @@
+"""The sandbox in the browser: turn xi down and watch."""

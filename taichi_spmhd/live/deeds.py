@@ -1,0 +1,153 @@
+"""What the page may ask for, one small function each. They run on the main thread, between two steps."""
+
+import numpy as np
+
+from .. import kernels, library
+from ..errors import InputError
+from . import pokes
+from .panel import Panel
+from .script import script
+
+
+def play(session, wish: dict) -> None:
+    if not session.going:
+        raise InputError("the run went wrong; reset starts it anew")
+    session.playing = True
+
+
+def pause(session, wish: dict) -> None:
+    session.playing = False
+
+
+def step(session, wish: dict) -> None:
+    """One step, then rest."""
+    session.playing = False
+    session.advance()
+
+
+def reset(session, wish: dict) -> None:
+    """All panels back to the start, with the settings of now."""
+    for panel in session.panels:
+        panel.reset()
+    session.shown.anew()
+
+
+def speed(session, wish: dict) -> None:
+    session.speed = float(wish["value"])
+
+
+def number(session, wish: dict) -> None:
+    """A slider."""
+    session.panels[wish["panel"]].slide(wish["part"], wish["name"], wish["value"])
+    session.changed()
+
+
+def switch(session, wish: dict) -> None:
+    """A term on or off."""
+    session.compiling()
+    session.panels[wish["panel"]].switch(wish["part"], wish["on"])
+    session.changed()
+
+
+def choose(session, wish: dict) -> None:
+    """Scene, parameters, variant, kernel: whichever is given."""
+    session.compiling()
+    panel = session.panels[wish.get("panel", 0)]
+    if "scene" in wish or "set" in wish:
+        other = "scene" in wish and wish["scene"] != session.scene_name
+        path = library.find(wish["scene"]) if other else session.path
+        given = {**({} if other else session.parameters), **wish.get("set", {})}
+        session.open(path, given, wish.get("variant", None if other else panel.variant))
+        panel = session.panels[min(wish.get("panel", 0), len(session.panels) - 1)]
+    elif "variant" in wish:
+        panel.begin_with(panel.variants, wish["variant"])
+        reset(session, wish)
+    if "kernel" in wish:
+        panel.change(panel.scene.but(kernel=getattr(kernels, wish["kernel"])()))
+    session.changed()
+
+
+def panels(session, wish: dict) -> None:
+    """One panel, or two: the second begins with the first one's settings."""
+    first, count = session.first, wish["count"]
+    if count == 2 and len(session.panels) == 1:
+        session.compiling()
+        session.panels.append(Panel("B", first.variants, first.variant, first.scene))
+        reset(session, wish)
+    elif count == 1 and len(session.panels) == 2:
+        session.panels.pop().close()
+    session.changed()
+
+
+def draw(session, wish: dict) -> None:
+    """What is drawn."""
+    session.look.change(wish)
+    session.changed()
+
+
+def poke(session, wish: dict) -> None:
+    """Push the particles around a place, or add a pulse of pressure or field."""
+    panel = session.panels[wish["panel"]]
+    sim, place = panel.sim, np.array([wish["x"], wish.get("y", 0.0), wish.get("z", 0.0)][: panel.sim.dim])
+    if wish["kind"] not in pokes.allowed(sim):
+        raise InputError(f"this scene cannot be poked with {wish['kind']}")
+    if wish["kind"] == "push":
+        moved = np.array([wish["dx"], wish.get("dy", 0.0), 0.0][: sim.dim])
+        scale = float(np.asarray(sim["vw"]).max()) / max(sim.scene.box.size)
+        pokes.push(sim, place, moved * scale, wish["radius"])
+    else:
+        getattr(pokes, wish["kind"])(sim, place, wish["strength"], wish["radius"])
+
+
+def record(session, wish: dict) -> None:
+    """Write a picture, a film, the state, or the settings as a scene file."""
+    session.shown.note(RECORDS[wish["what"]](session))
+
+
+def png(session) -> list[str]:
+    look = session.look
+    shots = {panel.label: panel.sim for panel in session.panels}
+    return [session.recorder.png(shots, look.picture, look.settle(session.sims), title(session))]
+
+
+def film(session) -> list[str]:
+    session.shown.film()
+    return []
+
+
+def stop(session) -> list[str]:
+    return [session.recorder.stop()]
+
+
+def state(session) -> list[str]:
+    return [name for panel in session.panels for name in session.recorder.state(panel.sim, panel.label)]
+
+
+def scene(session) -> list[str]:
+    text = script(session.path, session.parameters, session.panels, session.look.picture, title(session))
+    return [session.recorder.text(f"{session.scene_name}_live.py", text)]
+
+
+def title(session) -> str:
+    return library.sight(session.path).rstrip(".")
+
+
+def particle(session, question: dict) -> dict | None:
+    """The particle nearest to a place, with all its members; None where there is no such panel."""
+    if question["panel"] >= len(session.panels):
+        return None
+    sim = session.panels[question["panel"]].sim
+    columns, box = sim.columns(), sim.scene.box
+    apart = columns["x"][:, :2].astype(float) - np.array([question["x"], question["y"]])[: min(2, sim.dim)]
+    for a in range(apart.shape[1]):
+        if sim.scene.boundary.periodic[a]:
+            apart[:, a] -= box.size[a] * np.round(apart[:, a] / box.size[a])
+    k = int(np.argmin((apart**2).sum(axis=1)))
+    return {"id": k, "members": {name: np.round(values[k], 9).tolist() for name, values in columns.items()}}
+
+
+RECORDS = {"png": png, "film": film, "stop": stop, "state": state, "scene": scene}
+DEEDS = {
+    "play": play, "pause": pause, "step": step, "reset": reset, "speed": speed, "number": number, "switch": switch,
+    "choose": choose, "panels": panels, "draw": draw, "poke": poke, "record": record,
+}  # fmt: skip

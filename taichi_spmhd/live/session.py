@@ -1,0 +1,152 @@
+"""Session: the loop of a live run. Taichi and the simulations live here, on the main thread; wishes come from the desk.
+
+What is simulated depends on the wishes that were granted and on nothing else: not on who looks, how often, or at what
+size. A run that nobody steers has the bits of `Simulation.step` called as often.
+"""
+
+from pathlib import Path
+
+from ..errors import InputError, RunError
+from ..library import load_scene, module, parameters_of
+from ..outputs.signals import Stop
+from ..outputs.words import one_line
+from ..parameters import parameters
+from ..scene_code import code_of
+from . import deeds, pokes
+from .clock import Clock
+from .look import Look
+from .panel import Panel
+from .recorder import Recorder
+from .setup import setup
+from .shown import Shown
+
+REST = 0.2  # seconds a run with nothing to do sleeps before it looks at Ctrl-C again
+
+
+class Session:
+    """path: the scene file; parameters: what --set gave; variant: where to begin, the last one if None."""
+
+    def __init__(self, path: Path, given: dict, variant: str | None, device: dict, out: Path, desk):
+        self.device, self.desk, self.recorder = device, desk, Recorder(Path(out))
+        self.version, self.playing, self.speed, self.applied = 0, True, 0.0, 0
+        self.message, self.busy, self.arrived = None, None, False
+        self.panels: list[Panel] = []
+        self.clock, self.shown = Clock(), Shown(self)
+        self.open(path, given, variant)
+
+    @property
+    def first(self) -> Panel:
+        return self.panels[0]
+
+    @property
+    def sims(self) -> list:
+        return [panel.sim for panel in self.panels]
+
+    @property
+    def scene_name(self) -> str:
+        return self.path.stem
+
+    def open(self, path: Path, given: dict, variant: str | None = None) -> None:
+        """A scene from its start, in every panel; where it cannot be, all stays as it was. Raises InputError."""
+        with code_of(path):
+            variants = load_scene(path, **given)
+            values = parameters_of(path, **given)
+            kept = variant if variant in variants else list(variants)[-1]
+            fresh = [Panel(label, variants, kept) for label in ("A", "B")[: max(1, len(self.panels))]]
+        for panel in self.panels:
+            panel.close()
+        self.path, self.parameters, self.panels = path, values, fresh
+        self.look = Look(self.first.scene.picture)
+        self.changed()
+        self.shown.anew()
+
+    def described_parameters(self) -> list[dict]:
+        """Parameters of the scene file with their present values."""
+        known = parameters(module(self.path).scenes)
+        return [
+            {"name": p.name, "kind": p.kind.__name__ if p.kind else "str", "value": self.parameters[p.name]}
+            | {"choices": list(p.choices)}
+            for p in known.values()
+        ]
+
+    def pokes(self) -> list[str]:
+        """The ways in which this scene may be poked."""
+        return pokes.allowed(self.first.sim)
+
+    def changed(self) -> None:
+        """Something the page chooses from is different."""
+        if not self.look.fits(self.first.sim):
+            self.look = Look(self.first.scene.picture)
+        self.look.settle(self.sims)
+        self.version += 1
+        self.desk.publish_setup(setup(self))
+
+    def run(self, stop: Stop) -> None:
+        """Until somebody asks to stop."""
+        try:
+            while not stop.asked:
+                self.round()
+        finally:
+            self.recorder.stop()
+            for panel in self.panels:
+                panel.close()
+
+    def round(self) -> None:
+        """Wishes, a step, a look."""
+        for wish in self.desk.take():
+            self.grant(wish)
+        for question, answer in self.desk.questions():
+            answer(deeds.particle(self, question))
+        stepped = self.playing and self.clock.due(self.speed) and self.advance()
+        self.shown.update(stepped)
+        if not stepped:
+            self.desk.wait(self.clock.rest(self.speed, REST) if self.playing and self.going else REST)
+
+    @property
+    def going(self) -> list[Panel]:
+        """Panels that have not failed."""
+        return [panel for panel in self.panels if panel.failed is None]
+
+    def advance(self) -> bool:
+        """One step of all panels, in lock step: the longest that is stable in each."""
+        going = self.going
+        if not going:
+            return False
+        dt = min(panel.sim.longest for panel in going)
+        self.clock.stepped(sum(panel.step(dt) for panel in going))
+        for panel in going:
+            if panel.failed:
+                self.say(f"{panel.label}: {panel.failed}", "error")
+        if not self.going:
+            self.playing = False
+        self.stop_at_the_end()
+        return True
+
+    def stop_at_the_end(self) -> None:
+        """Pause once at the scene's t_end; play goes on beyond it."""
+        t_end = self.first.scene.t_end
+        if not self.arrived and self.going and self.going[0].sim.time >= t_end:
+            self.arrived, self.playing = True, False
+            self.say(f"t_end = {t_end:g} is reached; play goes on beyond it")
+
+    def grant(self, wish: dict) -> None:
+        """Do what was asked, or say why not."""
+        self.message = None
+        try:
+            deeds.DEEDS[wish["do"]](self, wish)
+        except (InputError, RunError) as error:
+            self.say(one_line(error), "error")
+        except MemoryError:
+            self.say("not enough memory for this many particles; lower nx", "error")
+        self.applied = max(self.applied, wish["id"])
+        self.busy = None
+        self.shown.touched()
+
+    def say(self, text: str, kind: str = "info") -> None:
+        """One line for the page."""
+        self.message = {"kind": kind, "text": text}
+
+    def compiling(self) -> None:
+        """Tell the page before the main thread is busy for a second."""
+        self.busy = "compiling"
+        self.shown.publish()

@@ -1,0 +1,147 @@
+"""What the page sees of a session: frames, state and rows of the plots, handed to the desk."""
+
+import math
+import time
+
+from ..errors import InputError
+from .readings import COLUMNS
+
+FRAME, STATE, ROW = 1 / 30, 0.05, 0.2  # seconds between two frames, states and rows, at the least
+EFFORT = 0.1  # share of the time that rows may take
+FILM_FRAMES = 100  # of a film that covers the scene's whole time
+MOST_FILES = 50
+
+
+class Shown:
+    """`number` counts what can be seen: it rises with every step and every wish granted."""
+
+    def __init__(self, session):
+        self.session, self.desk = session, session.desk
+        self.number, self.files = 0, []
+        self.drawn: dict[tuple, int] = {}  # the number of the last frame by panel and size
+        self.due = {"frame": 0.0, "state": 0.0, "row": 0.0}
+        self.stale, self.filming, self.next_shot = True, False, 0.0
+
+    def update(self, stepped: bool) -> None:
+        """After every round of the loop."""
+        if stepped:
+            self.number += 1
+            self.stale = True
+            self.measure()
+            self.shoot()
+        self.draw()
+        if self.stale and self.ready("state", STATE):
+            self.publish()
+
+    def touched(self) -> None:
+        """A wish was granted: show it at once."""
+        self.number += 1
+        self.due["frame"] = 0.0
+        self.publish()
+
+    def anew(self) -> None:
+        """The run begins again: empty plots, with their first row."""
+        self.number += 1
+        self.desk.clear_rows()
+        self.session.arrived = False
+        self.due["row"] = 0.0
+        self.measure()
+
+    def ready(self, what: str, apart: float) -> bool:
+        """Whether it is time again for one of these."""
+        now = time.monotonic()
+        if now < self.due[what]:
+            return False
+        self.due[what] = now + apart
+        return True
+
+    def measure(self) -> None:
+        """A row of the plots, as often as a tenth of the time allows."""
+        if not self.ready("row", ROW):
+            return
+        clock = time.monotonic()
+        self.desk.add_rows([self.row(panel) for panel in self.session.panels])
+        self.due["row"] = max(self.due["row"], clock + (time.monotonic() - clock) / EFFORT)
+
+    def row(self, panel) -> list:
+        """The readings of one panel; numbers that are none become null."""
+        if panel.failed:
+            return [None] * len(COLUMNS)
+        return [whole(value) for value in panel.readings.row(panel.sim, panel.ms, panel.updates)]
+
+    def draw(self) -> None:
+        """The frames somebody waits for."""
+        panels, sims = self.session.panels, self.session.sims
+        wanted = [
+            (k, w, h) for k, w, h in self.desk.wanted() if k < len(panels) and self.drawn.get((k, w, h)) != self.number
+        ]
+        if not wanted or not self.ready("frame", FRAME):
+            return
+        for k, w, h in wanted:
+            rgb = self.session.look.image(panels[k].sim, sims, (w, h))
+            self.desk.publish_frame(k, (w, h), self.number, rgb)
+            self.drawn[k, w, h] = self.number
+        if len(self.drawn) > 32:
+            self.drawn.clear()
+        self.session.clock.drew()
+
+    def publish(self) -> None:
+        """The state, as plain data."""
+        session, self.stale = self.session, False
+        self.desk.publish_state(
+            {
+                "setup": session.version,
+                "playing": session.playing,
+                "speed": session.speed,
+                "applied": session.applied,
+                "frame": self.number,
+                "busy": session.busy,
+                "message": session.message,
+                "recording": self.filming,
+                "files": self.files[-MOST_FILES:],
+                "clock": session.clock.figures(),
+                "panels": [self.figures(panel) for panel in session.panels],
+            }
+        )
+
+    def figures(self, panel) -> dict:
+        """What stands under a panel."""
+        sim, readings = panel.sim, panel.readings
+        numbers = {"ms": panel.ms, "updates": panel.updates, "growth": readings.growth()}
+        numbers |= {name: readings.last.get(name) for name in ("mean_gap", "smallest_gap", "close_pairs")}
+        return {
+            "label": panel.label,
+            "t": sim.time,
+            "steps": sim.steps,
+            "dt": whole(sim.dt),
+            "particles": len(sim),
+            "failed": panel.failed,
+            "growth_predicted": None,
+            **{name: whole(value) for name, value in numbers.items()},
+        }
+
+    def note(self, names: list[str]) -> None:
+        """Files that were written."""
+        self.files += [name for name in names if name]
+        if names:
+            self.session.say(f"written: {', '.join(name for name in names if name)}")
+
+    def film(self) -> None:
+        """Begin a film; its frames are evenly spaced in the scene's time."""
+        if self.filming:
+            raise InputError("a film is being recorded; stop it first")
+        self.filming, self.next_shot = True, self.session.first.sim.time
+        self.shoot()
+
+    def shoot(self) -> None:
+        """A frame of the film, when its time has come."""
+        session = self.session
+        if not self.filming or session.first.sim.time < self.next_shot:
+            return
+        self.next_shot = session.first.sim.time + session.first.scene.t_end / FILM_FRAMES
+        # placeholder for the recorder's frame
+
+
+def whole(value):
+    """A number for JSON: None where it is none."""
+    return None if value is None or not math.isfinite(value) else float(value)
