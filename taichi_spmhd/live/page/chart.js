@@ -74,7 +74,7 @@ function grid(c, x, y, w, h, colours, log) {
   }
   c.textAlign = "center";
   c.textBaseline = "alphabetic";
-  for (const value of ticks(x.lo, x.hi, 3)) {
+  for (const value of ticks(x.lo, x.hi, 4)) {
     const at = Math.min(x(value), w - 12);
     c.moveTo(Math.round(x(value)) + 0.5, h - EDGE.bottom);
     c.lineTo(Math.round(x(value)) + 0.5, h - EDGE.bottom + 4);

@@ -27,7 +27,7 @@ export function greek(text) {
 
 /** An equation as nodes: Greek letters, dots of products, and what follows an underscore as a subscript. */
 export function equation(text) {
-  const line = greek(text).replace(/(?<=[A-Za-zΑ-ω]\w*)\.(?=[A-Za-z])/g, "·");
+  const line = greek(text.replace(/\bG([ij])\b/g, "G_$1")).replace(/(?<=[A-Za-zΑ-ω]\w*)\.(?=[A-Za-z])/g, "·");
   const nodes = document.createDocumentFragment();
   line.split(/_(\w+)/).forEach((piece, k) => {
     if (k % 2 === 0) return nodes.append(piece);

@@ -5,12 +5,14 @@ import { byId, write } from "./dom.js";
 import { Panel } from "./panel.js";
 import { live, on } from "./store.js";
 import { short } from "./ticks.js";
-import { word } from "./words.js";
+import { spoken, word } from "./words.js";
 
 const made = []; // panels ever made; they are reused
 const TELL = 250; // milliseconds between two texts below the pictures
 let shownPanels = [];
 let told = 0;
+let below = 0; // the most height that the numbers below a picture have taken
+let laid = null; // what the layout was made for
 let gone = new AbortController(); // of the frames asked for in a size that is no longer wanted
 
 /** Follow the setup, the state and the window. */
@@ -28,9 +30,26 @@ export function startPictures() {
   frames();
 }
 
+/** All that the layout depends on. */
+function occasion() {
+  const { box, draw, palette, panels } = live.setup;
+  const section = byId("pictures");
+  const size = [section.clientWidth, section.clientHeight, innerHeight, devicePixelRatio];
+  return JSON.stringify([box, draw, palette, panels.map((p) => [p.label, p.variant]), size, spoken()]);
+}
+
 /** One or two panels, as large as fits. */
 function lay() {
   if (!live.setup) return;
+  const now = occasion();
+  if (now === laid) return;
+  laid = now;
+  below = 0;
+  fill();
+}
+
+/** Panels, colour bar and axes anew. */
+function fill() {
   const number = live.setup.panels.length;
   while (made.length < number) made.push(new Panel(made.length));
   const before = JSON.stringify(shownPanels.map((panel) => panel.size));
@@ -48,8 +67,6 @@ function lay() {
     gone.abort();
     gone = new AbortController();
   }
-  told = 0;
-  tellNumbers();
 }
 
 /** Room for the stage of each panel: beside each other where the page is wide, else below. */
@@ -58,7 +75,7 @@ function room(wide, number) {
   if (matchMedia("(max-width: 699px)").matches) {
     return number === 2 ? [wide / 2 - 4, innerHeight * 0.5] : [wide, innerHeight * 0.6];
   }
-  const below = Math.max(...shownPanels.map((panel) => panel.readout.element.offsetHeight));
+  below = Math.max(below, ...shownPanels.map((panel) => panel.readout.element.offsetHeight));
   const used = byId("colours").offsetHeight + byId("clock").offsetHeight + below + 24;
   const fixed = matchMedia("(min-width: 1100px)").matches;
   const high = fixed ? section.clientHeight - used : innerHeight * 0.65;
@@ -72,7 +89,9 @@ function tellNumbers() {
   told = now;
   shownPanels.forEach((panel, k) => live.state.panels[k] && panel.tell(live.state.panels[k]));
   const { frames_per_s: frames, share } = live.state.clock;
+  const height = Math.max(...shownPanels.map((panel) => panel.readout.element.offsetHeight));
   write(byId("clock"), word("read.frames", { frames: short(frames), share: short(100 * share) }));
+  if (height > below && below > 0) fill(); // a number that was not there before takes room
 }
 
 /** Ask for a frame newer than `after`: {number, blob}, or null where the answer is none. */
