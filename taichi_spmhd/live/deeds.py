@@ -1,5 +1,7 @@
 """What the page may ask for, one small function each. They run on the main thread, between two steps."""
 
+import time
+
 import numpy as np
 
 from .. import kernels, library
@@ -39,7 +41,7 @@ def speed(session, wish: dict) -> None:
 def number(session, wish: dict) -> None:
     """A slider."""
     session.panels[wish["panel"]].slide(wish["part"], wish["name"], wish["value"])
-    session.changed()
+    session.slid = time.monotonic()
 
 
 def switch(session, wish: dict) -> None:

@@ -20,7 +20,9 @@ class Panel:
 
     def __init__(self, label: str, variants: dict[str, Scene], variant: str, scene: Scene | None = None):
         self.label, self.variants, self.variant = label, variants, variant
-        self.readings, self.failed, self.ms = Readings(), None, 0.0
+        self.readings, self.failed = Readings(), None
+        self.cold()
+        self.words = None  # what setup.py said of the scene
         self.sim = self.made(scene or variants[variant])
 
     @property
@@ -54,8 +56,14 @@ class Panel:
         except RunError as error:
             self.failed = str(error)
         spent = time.perf_counter() - clock
-        self.ms += (1e3 * spent - self.ms) * (MEMORY if self.ms else 1.0)
+        if self.warm:
+            self.ms += (1e3 * spent - self.ms) * (MEMORY if self.ms else 1.0)
+        self.warm = True
         return spent
+
+    def cold(self) -> None:
+        """What comes next compiles: its milliseconds say nothing."""
+        self.ms, self.warm = 0.0, False
 
     @property
     def updates(self) -> float:
@@ -71,7 +79,13 @@ class Panel:
         scene = self.scene
         if on == (part in map(kind, scene.terms)):
             return
-        self.change(scene.plus(offered(self.variants, part)) if on else scene.without(part))
+        self.change(self.in_order(scene.plus(offered(self.variants, part))) if on else scene.without(part))
+
+    def in_order(self, scene: Scene) -> Scene:
+        """The same terms in the order of the variants, so that what was compiled for them is found again."""
+        names = list(dict.fromkeys(kind(term) for other in self.variants.values() for term in other.terms))
+        known = {name: k for k, name in enumerate(names)}
+        return scene.but(terms=tuple(sorted(scene.terms, key=lambda t: (known.get(kind(t), len(known)), kind(t)))))
 
     def change(self, scene: Scene) -> None:
         """Other terms or another kernel for the present state."""
@@ -80,7 +94,7 @@ class Panel:
         else:
             spare = (*self.spare(scene), *(part.at(scene.dim) for part in (*self.scene.parts, *scene.parts)))
             self.take(successor(self.sim, scene, spare))
-        self.ms = 0.0
+        self.cold()
 
     def reset(self) -> None:
         """Back to the start, with the settings of now."""
@@ -90,7 +104,8 @@ class Panel:
 
     def fresh(self) -> None:
         """Nothing is known of this run yet."""
-        self.failed, self.ms = None, 0.0
+        self.failed = None
+        self.cold()
         self.readings.clear()
 
     def begin_with(self, variants: dict[str, Scene], variant: str, scene: Scene | None = None) -> None:

@@ -4,6 +4,7 @@ What is simulated depends on the wishes that were granted and on nothing else: n
 size. A run that nobody steers has the bits of `Simulation.step` called as often.
 """
 
+import time
 from pathlib import Path
 
 from ..errors import InputError, RunError
@@ -21,6 +22,7 @@ from .setup import setup
 from .shown import Shown
 
 REST = 0.2  # seconds a run with nothing to do sleeps before it looks at Ctrl-C again
+QUIET = 0.4  # seconds after a slider's last move before other pages hear of it
 
 
 class Session:
@@ -30,6 +32,7 @@ class Session:
         self.device, self.desk, self.recorder = device, desk, Recorder(Path(out))
         self.version, self.playing, self.speed, self.applied = 0, True, 0.0, 0
         self.message, self.busy, self.arrived = None, None, False
+        self.slid = 0.0  # when a slider last moved, until the page has been told
         self.panels: list[Panel] = []
         self.clock, self.shown = Clock(), Shown(self)
         self.open(path, given, variant)
@@ -78,7 +81,7 @@ class Session:
         if not self.look.fits(self.first.sim):
             self.look = Look(self.first.scene.picture)
         self.look.settle(self.sims)
-        self.version += 1
+        self.version, self.slid = self.version + 1, 0.0
         self.desk.publish_setup(setup(self))
 
     def run(self, stop: Stop) -> None:
@@ -95,6 +98,8 @@ class Session:
         """Wishes, a step, a look."""
         for wish in self.desk.take():
             self.grant(wish)
+        if self.slid and time.monotonic() - self.slid > QUIET:
+            self.changed()
         for question, answer in self.desk.questions():
             answer(deeds.particle(self, question))
         stepped = self.playing and self.clock.due(self.speed) and self.advance()

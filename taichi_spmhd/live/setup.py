@@ -1,6 +1,7 @@
 """What the page may choose: scenes, parameters, parts with their numbers, members to draw. Plain data for JSON."""
 
 import inspect
+from functools import lru_cache
 
 from .. import kernels, library, terms
 from ..errors import InputError
@@ -17,13 +18,11 @@ SHADES = 33
 
 def setup(session) -> dict:
     """Everything about the present scene; `version` rises whenever some of it changes."""
-    scene, path = session.first.scene, session.path
+    scene = session.first.scene
     return {
         "version": session.version,
-        "title": library.sight(path),
-        "about": library.docstring(path),
+        **texts(session.path),
         "scene": session.scene_name,
-        "scenes": [{"name": entry.name, "sight": entry.sight} for entry in library.listing()],
         "parameters": session.described_parameters(),
         "kernels": KERNELS,
         "box": {"lo": scene.box.lo, "hi": scene.box.hi, "dim": scene.dim, "profile": is_profile(scene.box)},
@@ -38,6 +37,16 @@ def setup(session) -> dict:
     }
 
 
+@lru_cache(maxsize=4)
+def texts(path) -> dict:
+    """What the scene files say of themselves."""
+    return {
+        "title": library.sight(path),
+        "about": library.docstring(path),
+        "scenes": [{"name": entry.name, "sight": entry.sight} for entry in library.listing()],
+    }
+
+
 def shades(name: str) -> list[str]:
     """Colours of a map, low to high, as #rrggbb."""
     table = palette(name)
@@ -46,8 +55,15 @@ def shades(name: str) -> list[str]:
 
 
 def described(panel: Panel) -> dict:
-    """One panel: variant, kernel, and its parts."""
+    """One panel: variant, kernel, and its parts; what was said of the same scene is not worked out again."""
     scene = panel.scene
+    if panel.words is None or panel.words[0] is not scene:
+        panel.words = scene, worded(panel, scene)
+    return panel.words[1]
+
+
+def worded(panel: Panel, scene) -> dict:
+    """The same, worked out."""
     there = [entry(term, True, panel) for term in scene.terms]
     return {
         "label": panel.label,
@@ -60,9 +76,11 @@ def described(panel: Panel) -> dict:
 
 def entry(part, on: bool, panel: Panel) -> dict:
     """A part in words, with the numbers that slide and their ranges."""
+    part = part.at(panel.scene.dim)
     lines = inspect.cleandoc(type(part).__doc__ or kind(part)).splitlines()
     why = reason(panel.scene, part) if on and isinstance(part, Term) else None
-    begun = {kind(p): numbers(p) for p in (*panel.variants[panel.variant].terms, panel.scene.stepper)}
+    start = (*panel.variants[panel.variant].terms, panel.scene.stepper)
+    begun = {kind(other): numbers(other.at(panel.scene.dim)) for other in start}
     return {
         "name": kind(part),
         "kind": "term" if isinstance(part, Term) else "stepper",

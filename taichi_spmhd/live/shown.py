@@ -18,7 +18,6 @@ class Shown:
     def __init__(self, session):
         self.session, self.desk = session, session.desk
         self.number, self.files = 0, []
-        self.drawn: dict[tuple, int] = {}  # the number of the last frame by panel and size
         self.due = {"frame": 0.0, "state": 0.0, "row": 0.0}
         self.stale, self.filming, self.next_shot = True, False, 0.0
 
@@ -73,16 +72,13 @@ class Shown:
         """The frames somebody waits for."""
         panels, sims = self.session.panels, self.session.sims
         wanted = [
-            (k, w, h) for k, w, h in self.desk.wanted() if k < len(panels) and self.drawn.get((k, w, h)) != self.number
+            (k, w, h) for k, w, h in self.desk.wanted() if k < len(panels) and self.desk.drawn(k, (w, h)) != self.number
         ]
         if not wanted or not self.ready("frame", FRAME):
             return
         for k, w, h in wanted:
             rgb = self.session.look.image(panels[k].sim, sims, (w, h))
             self.desk.publish_frame(k, (w, h), self.number, rgb)
-            self.drawn[k, w, h] = self.number
-        if len(self.drawn) > 32:
-            self.drawn.clear()
         self.session.clock.drew()
 
     def publish(self) -> None:

@@ -1,0 +1,224 @@
+"""The server of the sandbox, in front of a desk at which nobody simulates."""
+
+import json
+import threading
+import time
+
+import numpy as np
+import pytest
+from client import Client
+from hostile import requests, send
+
+from taichi_spmhd.errors import InputError
+from taichi_spmhd.live import server as serving
+from taichi_spmhd.live.actions import checked
+from taichi_spmhd.live.desk import MOST_WISHES, Desk, Full
+from taichi_spmhd.live.plots import MOST, Plots
+from taichi_spmhd.live.server import Server
+
+XI = {"name": "xi", "value": 1.0, "low": 0.0, "high": 1.0, "start": 1.0}
+SETUP = {
+    "version": 1,
+    "scenes": [{"name": "alfven_tensile", "sight": ""}],
+    "kernels": ["CubicSpline"],
+    "box": {"lo": [0.0, 0.0], "hi": [1.0, 2.0], "dim": 2, "profile": False},
+    "members": [{"name": "rho", "components": 1}, {"name": "B", "components": 3}],
+    "draw": {"member": "B", "axis": 2},
+    "pokes": ["push", "pressure"],
+    "panels": [
+        {
+            "variants": ["xi = 0", "xi = 1"],
+            "parts": [
+                {"name": "Stress", "on": True, "fixed": True, "why": "nothing moves this gas", "numbers": []},
+                {"name": "DivBSource", "on": True, "fixed": False, "numbers": [XI]},
+            ],
+        }
+    ],
+}
+
+
+@pytest.fixture
+def desk():
+    made = Desk()
+    made.publish_setup(SETUP)
+    made.publish_state({"applied": 0, "panels": [{"t": 0.0}]})
+    return made
+
+
+@pytest.fixture
+def client(desk):
+    server = Server(desk)
+    server.start()
+    yield Client(server.url)
+    server.stop()
+
+
+def test_a_wish_reaches_the_desk_with_its_number(client, desk):
+    status, answer = client.post(do="number", panel=0, part="DivBSource", name="xi", value=0.25)
+    assert status == 200 and answer["ok"]
+    wish = {"do": "number", "panel": 0, "part": "DivBSource", "name": "xi", "value": 0.25, "id": answer["id"]}
+    assert desk.take() == [wish] and desk.take() == []
+
+
+def test_a_dragged_slider_leaves_one_wish_with_the_last_value(desk):
+    for value in (0.1, 0.2, 0.3):
+        last = desk.put({"do": "number", "panel": 0, "part": "DivBSource", "name": "xi", "value": value})
+    desk.put({"do": "pause"})
+    first, second = desk.take()
+    assert first["value"] == 0.3 and first["id"] == last and second["do"] == "pause"
+
+
+def test_the_desk_is_bounded(desk):
+    for _ in range(MOST_WISHES):
+        desk.put({"do": "step"})
+    with pytest.raises(Full):
+        desk.put({"do": "step"})
+
+
+def test_too_many_wishes_are_answered_503(client, desk):
+    for _ in range(MOST_WISHES):
+        desk.put({"do": "step"})
+    assert client.post(do="step")[0] == 503
+
+
+def test_rows_stay_bounded_and_readers_start_anew_when_they_are_thinned():
+    plots = Plots()
+    for k in range(MOST):
+        plots.add([[float(k)]])
+    known = plots.since(MOST)
+    assert known["first"] == MOST and known["panels"] == [[]]
+    plots.add([[float(MOST)]])
+    thinned = plots.since(MOST)
+    assert thinned["first"] == 0 and len(thinned["panels"][0]) == MOST // 2 + 1 and thinned["panels"][0][1] == [2.0]
+    assert plots.since(thinned["next"])["panels"] == [[]]
+    plots.clear()
+    assert plots.since(thinned["next"])["first"] == 0
+
+
+def test_a_long_poll_answers_when_the_state_changes(client, desk):
+    seq = client.state()["seq"]
+    threading.Timer(0.2, desk.publish_state, [{"panels": [{"t": 1.0}]}]).start()
+    clock = time.monotonic()
+    state = client.get(f"state?after={seq}&row=0")
+    assert state["seq"] == seq + 1 and 0.1 < time.monotonic() - clock < 5.0
+
+
+def test_a_long_poll_of_a_paused_run_answers_after_a_while(client, monkeypatch):
+    monkeypatch.setattr(serving, "PATIENCE", 0.2)
+    assert client.get("state?after=99&row=0")["seq"] == 1
+
+
+def test_frames_are_drawn_for_whoever_waits_and_once_for_all(client, desk):
+    found, rgb = [], np.full((96, 128, 3), 200, np.uint8)
+    readers = [threading.Thread(target=lambda: found.append(client.frame(size=(128, 96)))) for _ in range(3)]
+    for reader in readers:
+        reader.start()
+    desk.wait(5.0)  # woken by the first
+    while len(desk.frames.waiting) == 0 or sum(desk.frames.waiting.values()) < 3:
+        time.sleep(0.01)
+    assert desk.wanted() == [(0, 128, 96)]
+    desk.publish_frame(0, (128, 96), 7, rgb)
+    for reader in readers:
+        reader.join(5.0)
+    assert [number for number, _ in found] == [7, 7, 7] and found[0][1][:3] == b"\xff\xd8\xff"
+    assert client.frame(after=6, size=(128, 96))[0] == 7  # no need to wait: it is there
+
+
+def test_a_question_is_answered_by_the_main_thread_or_in_time_refused(client, desk, monkeypatch):
+    def main_thread():
+        desk.wait(5.0)
+        for question, answer in desk.questions():
+            answer({"id": 3, "asked": question})
+
+    threading.Thread(target=main_thread).start()
+    assert client.get("particle?panel=0&x=.5&y=-1e-2") == {"id": 3, "asked": {"panel": 0, "x": 0.5, "y": -0.01}}
+    monkeypatch.setattr(serving, "ANSWER", 0.1)
+    assert client.request("GET", "particle?panel=0&x=0&y=0")[0] == 503
+
+
+def test_the_page_and_its_files_come_with_strict_headers(client):
+    status, headers, body = client.request("GET", "")
+    assert status == 200 and b"<html" in body.lower() and headers["Cache-Control"] == "no-store"
+    assert headers["Content-Security-Policy"].startswith("default-src 'none'; script-src 'self'")
+    assert client.request("GET", "live.js")[1]["Content-Type"].startswith("text/javascript")
+    assert client.request("GET", "?lang=ja")[0] == 200
+    assert client.request("GET", "session.py")[0] == 404
+
+
+def test_a_port_that_is_taken_is_one_clear_line(client):
+    with pytest.raises(InputError, match=r"cannot listen.*take another --port"):
+        Server(Desk(), port=client.port)
+
+
+def test_stopping_lets_go_who_waits(desk):
+    server = Server(desk)
+    server.start()
+    found = []
+    reader = threading.Thread(target=lambda: found.append(Client(server.url).get("state?after=99&row=0")))
+    reader.start()
+    time.sleep(0.2)
+    clock = time.monotonic()
+    server.stop()
+    reader.join(5.0)
+    assert found and time.monotonic() - clock < 2.0
+
+
+def test_a_thousand_hostile_requests_reach_nobody(client, desk, capfd):
+    before = threading.active_count()
+    answers = [(request, send(client.port, request)) for request in requests(client.token, 1000)]
+    for request, answer in answers:
+        lines = answer.split(b"\r\n")[0].split()
+        assert not answer or (lines[0] == b"HTTP/1.1" and lines[1][:1] in b"245" and lines[1] != b"500"), request[:200]
+        if lines and lines[1][:1] == b"2":  # a changed byte that leaves a sane request: it may read, and nothing else
+            assert request.startswith(b"GET /"), request[:200]
+    refused = sum(answer.split(b" ")[1:2] not in ([], [b"200"]) for _, answer in answers)
+    assert refused > 800  # the others are cut so short that they are no requests, or harmless
+    assert desk.take() == [] and desk.questions() == []
+    clock = time.monotonic()
+    assert client.state()["seq"] == 1 and time.monotonic() - clock < 1.0
+    time.sleep(0.3)
+    assert threading.active_count() <= before + 2
+    assert capfd.readouterr().err == ""
+
+
+def test_half_a_request_holds_up_nobody(client):
+    import socket
+
+    lines = [socket.create_connection(("127.0.0.1", client.port)) for _ in range(20)]
+    for line in lines:
+        line.sendall(b"POST /" + client.token.encode() + b"/do HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Le")
+    clock = time.monotonic()
+    assert client.state()["seq"] == 1 and time.monotonic() - clock < 1.0
+    for line in lines:
+        line.close()
+
+
+@pytest.mark.parametrize(
+    ("wish", "why"),
+    [
+        ({"do": "nunber"}, "not known; there are play, pause"),
+        ({"do": "number", "part": "DivBSource", "name": "xi", "valu": 1}, "did you mean 'value'"),
+        ({"do": "number", "part": "DivBSource", "name": "xi", "value": 2}, "xi: 2.* from 0 to 1"),
+        ({"do": "switch", "part": "Stress", "on": False}, "cannot be switched off: nothing moves this gas"),
+        ({"do": "draw", "axis": 2, "member": "rho"}, "rho has no component 2"),
+        ({"do": "poke", "kind": "field", "x": 0, "radius": 0.1, "strength": 1}, "one of push, pressure"),
+        ({"do": "poke", "kind": "push", "x": 0, "radius": 0.1}, "dx is missing"),
+        ({"do": "choose", "variant": "xi = 2"}, "one of xi = 0, xi = 1"),
+    ],
+)
+def test_what_is_wrong_with_a_wish_is_said_in_one_line(wish, why):
+    with pytest.raises(InputError, match=why) as caught:
+        checked(wish, SETUP)
+    assert "\n" not in str(caught.value)
+
+
+def test_good_wishes_pass_as_they_are():
+    for wish in (
+        {"do": "play"},
+        {"do": "speed", "value": 10.0},
+        {"do": "choose", "panel": 0, "scene": "alfven_tensile", "set": {"nx": 48, "beta": "1/10"}},
+        {"do": "draw", "member": "B", "axis": None, "limits": [-1.0, 1.0], "log": False},
+        {"do": "poke", "panel": 0, "kind": "push", "x": 0.5, "y": 1.5, "dx": 0.1, "dy": 0.0, "radius": 0.1},
+        {"do": "record", "what": "png"},
+    ):
+        assert checked(json.loads(json.dumps(wish)), SETUP) == wish
