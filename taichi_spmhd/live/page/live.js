@@ -16,8 +16,8 @@ import { translate } from "./words.js";
 const BACK_OFF = [200, 500, 1000, 2000, 4000]; // milliseconds between tries when the connection is lost
 
 /** Fetch the setup when the state speaks of a newer one. */
-async function follow(version) {
-  if (live.setup && live.setup.version >= version) return;
+async function follow(version, anew) {
+  if (live.setup && live.setup.version >= version && !anew) return;
   const before = live.setup;
   live.setup = await getJSON("setup");
   if (!before || before.panels.length !== live.setup.panels.length) restart(live.setup.panels.length);
@@ -27,7 +27,7 @@ async function follow(version) {
 /** One answer of the server: state, rows, what was applied. */
 async function listen(after, row) {
   const state = await getJSON(`state?after=${after}&row=${row}`);
-  await follow(state.setup);
+  await follow(state.setup, state.seq < after); // a smaller seq: another server stands at this address
   live.state = state;
   applied(state.applied);
   take(state.rows);
@@ -43,7 +43,6 @@ async function loop() {
   for (;;) {
     try {
       const state = await listen(after, row);
-      if (state.seq < after) live.setup = null; // another server stands at this address
       after = state.seq;
       row = state.rows.next;
       if (lost) connection(true);

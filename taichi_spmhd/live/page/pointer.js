@@ -76,7 +76,7 @@ function placeOf(panel, event) {
 /** x and y for the server: in a profile the vertical axis is no place, there the middle of the box. */
 function asked([x, y]) {
   const { box } = live.setup;
-  return { x, y: box.profile ? (box.dim > 1 ? (box.lo[1] + box.hi[1]) / 2 : 0) : y };
+  return { x, y: box.profile ? (box.dim > 1 ? (box.lo[1] + box.hi[1]) / 2 : box.lo[0]) : y };
 }
 
 /** Radius of the brush in lengths of the box: parts of its shorter side, of its length where it is a profile. */
