@@ -1,0 +1,161 @@
+// The pictures of one or two panels: laid out in the room there is, fed by long polls, both of the same number.
+import { get, pause } from "./api.js";
+import { colourBar } from "./axes.js";
+import { byId, write } from "./dom.js";
+import { Panel } from "./panel.js";
+import { live, on } from "./store.js";
+import { short } from "./ticks.js";
+import { spoken, word } from "./words.js";
+
+const made = []; // panels ever made; they are reused
+const TELL = 250; // milliseconds between two texts below the pictures
+let shownPanels = [];
+let told = 0;
+let below = 0; // the most height that the numbers below a picture have taken
+let laid = null; // what the layout was made for
+let gone = new AbortController(); // of the frames asked for in a size that is no longer wanted
+
+/** Follow the setup, the state and the window. */
+export function startPictures() {
+  on("setup", lay);
+  on("language", lay);
+  on("state", tellNumbers);
+  let waiting = 0;
+  const later = () => {
+    clearTimeout(waiting);
+    waiting = setTimeout(lay, 100);
+  };
+  new ResizeObserver(later).observe(byId("pictures"));
+  addEventListener("resize", later);
+  frames();
+}
+
+/** All that the layout depends on. */
+function occasion() {
+  const { box, draw, palette, panels } = live.setup;
+  const section = byId("pictures");
+  const size = [section.clientWidth, section.clientHeight, innerHeight, devicePixelRatio];
+  return JSON.stringify([box, draw, palette, panels.map((p) => [p.label, p.variant]), size, spoken()]);
+}
+
+/** One or two panels, as large as fits. */
+function lay() {
+  if (!live.setup) return;
+  const now = occasion();
+  if (now === laid) return;
+  laid = now;
+  below = 0;
+  fill();
+}
+
+/** Panels, colour bar and axes anew. */
+function fill() {
+  const number = live.setup.panels.length;
+  while (made.length < number) made.push(new Panel(made.length));
+  const before = JSON.stringify(shownPanels.map((panel) => panel.size));
+  if (shownPanels.length !== number) {
+    shownPanels = made.slice(0, number);
+    byId("panels").replaceChildren(...shownPanels.map((panel) => panel.element));
+  }
+  document.body.dataset.panels = number;
+  const wide = byId("pictures").clientWidth - 8;
+  const bar = colourBar(Math.min(wide, 620));
+  byId("colours").replaceChildren(...(bar ? [bar] : []));
+  const [w, h] = room(wide, number);
+  for (const panel of shownPanels) panel.lay(w, h);
+  if (before !== JSON.stringify(shownPanels.map((panel) => panel.size))) {
+    gone.abort();
+    gone = new AbortController();
+  }
+}
+
+/** Room for the stage of each panel: beside each other where the page is wide, else below. */
+function room(wide, number) {
+  const section = byId("pictures");
+  if (matchMedia("(max-width: 699px)").matches) {
+    return number === 2 ? [wide / 2 - 4, innerHeight * 0.5] : [wide, innerHeight * 0.6];
+  }
+  below = Math.max(below, ...shownPanels.map((panel) => panel.readout.element.offsetHeight));
+  const used = byId("colours").offsetHeight + byId("clock").offsetHeight + below + 24;
+  const fixed = matchMedia("(min-width: 1100px)").matches;
+  const high = fixed ? section.clientHeight - used : innerHeight * 0.65;
+  return [(wide - 12 * (number - 1)) / number, Math.max(220, high)];
+}
+
+/** Texts below the pictures, a few times a second. */
+function tellNumbers() {
+  const now = performance.now();
+  if (!live.state || !live.setup || now - told < TELL) return;
+  told = now;
+  shownPanels.forEach((panel, k) => live.state.panels[k] && panel.tell(live.state.panels[k]));
+  const { frames_per_s: frames, share } = live.state.clock;
+  const height = Math.max(...shownPanels.map((panel) => panel.readout.element.offsetHeight));
+  write(byId("clock"), word("read.frames", { frames: short(frames), share: short(100 * share) }));
+  if (height > below && below > 0) fill(); // a number that was not there before takes room
+}
+
+/** Ask for a frame newer than `after`: {number, blob}, or null where the answer is none. */
+async function frame(k, after) {
+  const [width, height] = shownPanels[k].pixels;
+  const answer = await get(`frame?panel=${k}&after=${after}&width=${width}&height=${height}`, { signal: gone.signal });
+  const number = Number(answer.headers.get("X-Frame"));
+  const blob = await answer.blob();
+  return answer.status === 200 && blob.size && number > after ? { number, blob } : null;
+}
+
+/** Frames of all panels with the same number; whichever lags behind is asked for again. */
+async function together(after) {
+  const found = await Promise.all(shownPanels.map((_, k) => frame(k, after)));
+  for (let tries = 0; tries < 5 && found.every(Boolean); tries++) {
+    const newest = Math.max(...found.map((one) => one.number));
+    const behind = found.findIndex((one) => one.number < newest);
+    if (behind < 0) return found;
+    found[behind] = await frame(behind, newest - 1);
+  }
+  return null;
+}
+
+/** Decode and draw; nothing is kept. */
+async function show(found, panels) {
+  const bitmaps = await Promise.all(found.map((one) => createImageBitmap(one.blob)));
+  if (panels === shownPanels) bitmaps.forEach((bitmap, k) => panels[k].show(bitmap));
+  bitmaps.forEach((bitmap) => bitmap.close());
+  live.frames.shown += 1;
+  live.frames.number = found[0].number;
+}
+
+/** Until the tab can be seen. */
+function visible() {
+  if (!document.hidden) return null;
+  return new Promise((done) => document.addEventListener("visibilitychange", done, { once: true }));
+}
+
+/** Ask, show, ask again, for ever; with patience where nobody answers. */
+async function frames() {
+  let after = -1;
+  let lost = 0;
+  let size = null;
+  for (;;) {
+    await visible();
+    if (!shownPanels.length || !live.connected) {
+      await pause(100);
+      continue;
+    }
+    const now = JSON.stringify(shownPanels.map((panel) => panel.pixels));
+    if (now !== size) after = -1; // another size: the frame of now is wanted again
+    size = now;
+    try {
+      const panels = shownPanels;
+      const found = await together(after);
+      if (found) {
+        after = found[0].number;
+        await show(found, panels);
+      } else await pause(30);
+      lost = 0;
+    } catch {
+      lost += 1;
+      if (lost > 2) after = -1;
+      await pause(Math.min(4000, 50 * 2 ** lost));
+    }
+  }
+}
