@@ -10,6 +10,7 @@ import numpy as np
 from .diagnostics.ledger import Ledger
 from .errors import InputError
 from .neighbours import STORY
+from .particles import COLD, HOT
 from .replacing import replacing
 
 FORMAT = 1
@@ -40,13 +41,14 @@ def save(sim, path) -> None:
 def content(sim) -> dict[str, np.ndarray]:
     """The arrays of the file by name."""
     table, ids = sim.particles.table()
-    ledger = sim.ledger
-    out = {"format": FORMAT, "precision": WORDS[table.itemsize], "columns": columns(sim), "table": table, "ids": ids}
+    ledger, kept = sim.ledger, own(sim)
+    out = {"format": FORMAT, "precision": WORDS[table.itemsize], "columns": columns(sim)[kept], "ids": ids}
+    out["table"] = table[:, kept]
     out.update({name: getattr(sim, name) for name in NUMBERS + COUNTS})
     out["scene"] = sim.scene.sketch()
     out.update({"E0": ledger.E0, "p0": ledger.p0, "v_rms": ledger.v_rms})
     out.update(sim.neighbours.story())
-    out.update({f"rate_{name}": rate for name, rate in sim.particles.rates().items()})
+    out.update({f"rate_{name}": rate for name, rate in sim.particles.rates().items() if name in own_rates(sim)})
     return {name: np.asarray(value) for name, value in out.items()}
 
 
@@ -55,7 +57,18 @@ def columns(sim) -> np.ndarray:
     return np.array([name for name, kind, _ in sim.particles.layout for _ in range(kind)])
 
 
-def load(cls, path, scene):
+def own(sim) -> np.ndarray:
+    """Which columns of the table belong to the scene's parts: a live run has room for other parts', too."""
+    names = {name for part in sim.parts for name in part.members()} | {*HOT, *COLD, "held"}
+    return np.isin(columns(sim), list(names))
+
+
+def own_rates(sim) -> set:
+    """The members that the scene's parts evolve."""
+    return {name for part in sim.parts for name in part.evolves}
+
+
+def load(cls, path, scene, spare=None):
     """A Simulation of `scene` that goes on where save stopped, to the same bits.
 
     Raises InputError for a file that is missing, damaged, foreign, or of another scene or precision.
@@ -64,7 +77,7 @@ def load(cls, path, scene):
     count, given = len(saved["table"]), len(scene.positions)
     if count != given:
         raise InputError(f"{path}: holds {count} particles, the scene has {given}; give the parameters the run had")
-    sim = cls(scene)
+    sim = cls(scene, spare=spare)
     try:
         admit(sim, path, saved)
         sim.begun = True
@@ -109,17 +122,20 @@ def admit(sim, path, saved: dict) -> None:
             f"{path}: saved by another scene, {saved.get('scene')}; give the scene and parameters the run had"
         )
     try:
-        rates = {name: saved[f"rate_{name}"] for name in p.names}
+        rates = {**p.rates(), **{name: saved[f"rate_{name}"] for name in own_rates(sim)}}
         numbers = {name: saved[name].item() for name in (*NUMBERS, *COUNTS, *STORY, "E0", "v_rms")}
         ledger = Ledger(numbers["E0"], saved["p0"], numbers["v_rms"])
     except (KeyError, ValueError) as error:
         raise InputError(f"{path}: {error} is missing; give the scene and parameters the run had") from error
-    if list(saved["columns"]) != list(columns(sim)) or saved["table"].shape != (p.n, p.width):
-        other = sorted(set(saved["columns"]) ^ set(columns(sim)))
+    kept = own(sim)
+    if list(saved["columns"]) != list(columns(sim)[kept]) or saved["table"].shape != (p.n, kept.sum()):
+        other = sorted(set(saved["columns"]) ^ set(columns(sim)[kept]))
         raise InputError(
             f"{path}: saved by a scene with other members ({', '.join(other)}); list the terms the run had"
         )
-    p.admit(np.ascontiguousarray(saved["table"]), saved["ids"].astype(np.int32))
+    table = np.zeros((p.n, p.width), saved["table"].dtype)
+    table[:, kept] = saved["table"]
+    p.admit(table, saved["ids"].astype(np.int32))
     p.admit_rates(rates)
     sim.neighbours.retell(numbers)
     sim.neighbours.rebuild()

@@ -183,11 +183,11 @@ class Simulation:
         save(self, path)
 
     @classmethod
-    def load(cls, path, scene: Scene) -> "Simulation":
+    def load(cls, path, scene: Scene, spare: tuple | None = None) -> "Simulation":
         """A simulation that goes on where save stopped, to the same bits."""
         from .checkpoint import load
 
-        return load(cls, path, scene)
+        return load(cls, path, scene, spare)
 
     def close(self) -> None:
         """Give the device memory back."""

@@ -7,7 +7,7 @@ import numpy as np
 from .. import kernels, library
 from ..errors import InputError
 from . import pokes
-from .panel import Panel
+from .panel import Panel, kind
 from .script import script
 
 
@@ -55,18 +55,25 @@ def choose(session, wish: dict) -> None:
     """Scene, parameters, variant, kernel: whichever is given."""
     session.compiling()
     panel = session.panels[wish.get("panel", 0)]
-    if "scene" in wish or "set" in wish:
-        other = "scene" in wish and wish["scene"] != session.scene_name
-        path = library.find(wish["scene"]) if other else session.path
-        given = {**({} if other else session.parameters), **wish.get("set", {})}
-        session.open(path, given, wish.get("variant", None if other else panel.variant))
-        panel = session.panels[min(wish.get("panel", 0), len(session.panels) - 1)]
-    elif "variant" in wish:
-        panel.begin_with(panel.variants, wish["variant"])
+    other = wish.get("scene", session.scene_name) != session.scene_name
+    path = library.find(wish["scene"]) if other else session.path
+    values = library.parameters_of(path, **{**({} if other else session.parameters), **wish.get("set", {})})
+    if other or values != session.parameters:
+        session.open(path, values, wish.get("variant", None if other else panel.variant))
+        panel = session.panels[wish.get("panel", 0)]
+    elif {"variant", "scene", "set"} & set(wish):
+        panel.begin_with(panel.variants, among(panel, wish.get("variant", panel.variant)))
         reset(session, wish)
-    if "kernel" in wish:
+    if wish.get("kernel", kind(panel.scene.kernel)) != kind(panel.scene.kernel):
         panel.change(panel.scene.but(kernel=getattr(kernels, wish["kernel"])()))
     session.changed()
+
+
+def among(panel: Panel, variant: str) -> str:
+    """A variant that the scene has."""
+    if variant not in panel.variants:
+        raise InputError(f"variant: there is no {variant!r}; there are {', '.join(panel.variants)}")
+    return variant
 
 
 def panels(session, wish: dict) -> None:

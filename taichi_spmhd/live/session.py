@@ -115,7 +115,7 @@ class Session:
         for question, answer in self.desk.questions():
             answer(deeds.particle(self, question))
         stepped = self.playing and self.clock.due(self.speed) and self.advance()
-        self.shown.update(stepped)
+        self.shown.update()
         if not stepped:
             self.desk.wait(self.clock.rest(self.speed, REST) if self.playing and self.going else REST)
 
@@ -137,6 +137,7 @@ class Session:
         if not self.going:
             self.playing = False
         self.stop_at_the_end()
+        self.shown.stepped()
         return True
 
     def stop_at_the_end(self) -> None:

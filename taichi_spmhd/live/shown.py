@@ -22,13 +22,17 @@ class Shown:
         self.due = {"frame": 0.0, "state": 0.0, "row": 0.0}
         self.stale, self.filming, self.next_shot = True, False, 0.0
 
-    def update(self, stepped: bool) -> None:
+    def stepped(self) -> None:
+        """After every step; where the run rests after it, its last state is measured, too."""
+        self.number += 1
+        self.stale = True
+        if not self.session.playing:
+            self.due["row"] = 0.0
+        self.measure()
+        self.shoot()
+
+    def update(self) -> None:
         """After every round of the loop."""
-        if stepped:
-            self.number += 1
-            self.stale = True
-            self.measure()
-            self.shoot()
         self.draw()
         if self.stale and self.ready("state", STATE):
             self.publish()
