@@ -11,6 +11,7 @@ const made = []; // panels ever made; they are reused
 const TELL = 250; // milliseconds between two texts below the pictures
 let shownPanels = [];
 let told = 0;
+let due = 0;
 let below = 0; // the most height that the numbers below a picture have taken
 let laid = null; // what the layout was made for
 let gone = new AbortController(); // of the frames asked for in a size that is no longer wanted
@@ -19,7 +20,7 @@ let gone = new AbortController(); // of the frames asked for in a size that is n
 export function startPictures() {
   on("setup", lay);
   on("language", lay);
-  on("state", tellNumbers);
+  on("state", tellSoon);
   let waiting = 0;
   const later = () => {
     clearTimeout(waiting);
@@ -82,11 +83,17 @@ function room(wide, number) {
   return [(wide - 12 * (number - 1)) / number, Math.max(220, high)];
 }
 
-/** Texts below the pictures, a few times a second. */
+/** Texts below the pictures, a few times a second; the last state is always told. */
+function tellSoon() {
+  due ||= setTimeout(tellNumbers, Math.max(0, TELL - (performance.now() - told)));
+}
+
+/** Texts below the pictures, now. */
 function tellNumbers() {
-  const now = performance.now();
-  if (!live.state || !live.setup || now - told < TELL) return;
-  told = now;
+  clearTimeout(due);
+  due = 0;
+  told = performance.now();
+  if (!live.state || !live.setup) return;
   shownPanels.forEach((panel, k) => live.state.panels[k] && panel.tell(live.state.panels[k]));
   const { frames_per_s: frames, share } = live.state.clock;
   const height = Math.max(...shownPanels.map((panel) => panel.readout.element.offsetHeight));
