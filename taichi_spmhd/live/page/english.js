@@ -2,6 +2,7 @@
 export const english = {
   "title": "spmhd live",
   "skip": "To the picture",
+  "controls": "Run",
   "play": "Play",
   "pause": "Pause",
   "play.tip": "play or pause (space)",
@@ -106,6 +107,8 @@ export const english = {
   "picture.wait": "waiting for the first picture",
   "colours.of": "Colours: {what} from {low} to {high}",
   "particle": "Particle {id}",
+  "said.end": "The end of the scene, t = {what}, is reached; play goes on beyond it.",
+  "said.written": "Written: {what}",
   "busy.compiling": "compiling …",
   "lost": "The connection is lost; trying again.",
   "failed": "Panel {label} went wrong: {text}",
