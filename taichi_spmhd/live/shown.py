@@ -8,6 +8,7 @@ from .readings import COLUMNS
 
 FRAME, STATE, ROW = 1 / 30, 0.05, 0.2  # seconds between two frames, states and rows, at the least
 EFFORT = 0.1  # share of the time that rows may take
+LOOKING, SMOOTH = 0.35, 1 / 20  # share of the time that frames may take; seconds between two that look smooth
 FILM_FRAMES = 100  # of a film that covers the scene's whole time
 MOST_FILES = 50
 
@@ -76,9 +77,12 @@ class Shown:
         ]
         if not wanted or not self.ready("frame", FRAME):
             return
+        clock = time.monotonic()
         for k, w, h in wanted:
             rgb = self.session.look.image(panels[k].sim, sims, (w, h))
             self.desk.publish_frame(k, (w, h), self.number, rgb)
+        cost = time.monotonic() - clock
+        self.due["frame"] = clock + max(FRAME, min(cost / LOOKING, SMOOTH), 1.5 * cost)
         self.session.clock.drew()
 
     def publish(self) -> None:
