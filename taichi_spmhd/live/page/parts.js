@@ -1,4 +1,4 @@
-// The parts of each panel: a switch, sliders, and on demand the equation with its advice; and parts that could be added.
+// The parts of each panel: a switch, sliders, on demand the equation with its advice; and parts that could be added.
 import { send } from "./api.js";
 import { byId, make, refill } from "./dom.js";
 import { equation, greek } from "./greek.js";
