@@ -108,8 +108,7 @@ def record(session, wish: dict) -> None:
 
 def png(session) -> list[str]:
     look = session.look
-    shots = {panel.label: panel.sim for panel in session.panels}
-    return [session.recorder.png(shots, look.picture, look.settle(session.sims), title(session))]
+    return [session.recorder.png(session.shots, look.picture, look.settle(session.sims), session.title)]
 
 
 def film(session) -> list[str]:
@@ -118,7 +117,7 @@ def film(session) -> list[str]:
 
 
 def stop(session) -> list[str]:
-    return [session.recorder.stop()]
+    return session.shown.end_film()
 
 
 def state(session) -> list[str]:
@@ -126,12 +125,8 @@ def state(session) -> list[str]:
 
 
 def scene(session) -> list[str]:
-    text = script(session.path, session.parameters, session.panels, session.look.picture, title(session))
-    return [session.recorder.text(f"{session.scene_name}_live.py", text)]
-
-
-def title(session) -> str:
-    return library.sight(session.path).rstrip(".")
+    text = script(session.path, session.parameters, session.panels, session.look.picture, session.title)
+    return [session.recorder.text(f"{session.scene_name}_live", text)]
 
 
 def particle(session, question: dict) -> dict | None:

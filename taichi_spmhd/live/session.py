@@ -8,7 +8,7 @@ import time
 from pathlib import Path
 
 from ..errors import InputError, RunError
-from ..library import load_scene, module, parameters_of
+from ..library import load_scene, module, parameters_of, sight
 from ..outputs.signals import Stop
 from ..outputs.words import one_line
 from ..parameters import parameters
@@ -21,6 +21,7 @@ from .recorder import Recorder
 from .setup import setup
 from .shown import Shown
 
+WATCH, SMOOTH = 10.0, 15.0  # seconds that a scene should last at least; steps a second below which it jerks
 REST = 0.2  # seconds a run with nothing to do sleeps before it looks at Ctrl-C again
 QUIET = 0.4  # seconds after a slider's last move before other pages hear of it
 
@@ -46,6 +47,16 @@ class Session:
         return [panel.sim for panel in self.panels]
 
     @property
+    def shots(self) -> dict:
+        """The simulations by what stands above their panels."""
+        several = len(self.panels) > 1
+        return {f"{p.label}: {p.variant}" if several else p.variant: p.sim for p in self.panels}
+
+    @property
+    def title(self) -> str:
+        return sight(self.path).rstrip(".")
+
+    @property
     def scene_name(self) -> str:
         return self.path.stem
 
@@ -60,6 +71,7 @@ class Session:
             panel.close()
         self.path, self.parameters, self.panels = path, values, fresh
         self.look = Look(self.first.scene.picture)
+        self.speed = unhurried(self.first)
         self.changed()
         self.shown.anew()
 
@@ -156,3 +168,9 @@ class Session:
         """Tell the page before the main thread is busy for a second."""
         self.busy = "compiling"
         self.shown.publish()
+
+
+def unhurried(panel: Panel) -> float:
+    """Steps a second at which there is time to watch: small scenes are over in a second otherwise. It only limits."""
+    steps = panel.scene.t_end / panel.sim.longest if panel.sim.longest > 0 else 0.0
+    return float(min(max(SMOOTH, round(steps / WATCH)), 1000.0))

@@ -122,24 +122,34 @@ class Shown:
 
     def note(self, names: list[str]) -> None:
         """Files that were written."""
-        self.files += [name for name in names if name]
+        names = [name for name in names if name]
+        self.files += names
         if names:
-            self.session.say(f"written: {', '.join(name for name in names if name)}")
+            self.session.say(f"written: {', '.join(names)} in {self.session.recorder.folder}")
 
     def film(self) -> None:
         """Begin a film; its frames are evenly spaced in the scene's time."""
         if self.filming:
             raise InputError("a film is being recorded; stop it first")
-        self.filming, self.next_shot = True, self.session.first.sim.time
+        session = self.session
+        limits = session.look.settle(session.sims)
+        session.recorder.begin(session.shots, session.look.picture, limits, session.title)
+        self.filming, self.next_shot = True, -1.0
         self.shoot()
 
     def shoot(self) -> None:
-        """A frame of the film, when its time has come."""
-        session = self.session
-        if not self.filming or session.first.sim.time < self.next_shot:
+        """A frame of the film, when its time has come; the film ends where it cannot go on."""
+        session, now = self.session, self.session.first.sim.time
+        if not self.filming or (0 <= self.next_shot - now <= session.first.scene.t_end / FILM_FRAMES):
             return
-        self.next_shot = session.first.sim.time + session.first.scene.t_end / FILM_FRAMES
-        # placeholder for the recorder's frame
+        self.next_shot = now + session.first.scene.t_end / FILM_FRAMES
+        if not session.recorder.shoot(session.shots):
+            self.note(self.end_film())
+
+    def end_film(self) -> list[str]:
+        """Write the film; its name."""
+        self.filming = False
+        return [self.session.recorder.stop()]
 
 
 def whole(value):

@@ -1,4 +1,4 @@
-"""View: the field of one simulation as pixels, without axes. The members are read once a frame, for all that is drawn."""
+"""View: the field of one simulation as pixels, without axes. Members are read once a frame, for all that is drawn."""
 
 import numpy as np
 

@@ -1,0 +1,95 @@
+"""Readings: what the live plots show of one simulation, a row a few times a second."""
+
+import time
+
+import numpy as np
+
+from ..diagnostics.clumping import CLOSE, squared_gaps
+from ..diagnostics.errors import errors
+from ..diagnostics.field import div_B
+from ..diagnostics.ledger import drifts
+from ..diagnostics.rows import rows
+from .growth import Growth, noise
+
+COLUMNS = (
+    "t", "ms", "updates", "E_drift", "E_drift_predicted", "p_drift", "p_drift_predicted", "mean_gap", "close_pairs",
+    "div_B", "error", "noise",
+)  # fmt: skip
+RARELY = 20.0  # an error that takes long to find is found again after this many times as long
+
+
+class Readings:
+    """`last`: the last row by name, with "smallest_gap"."""
+
+    def __init__(self):
+        self.clear()
+
+    def clear(self) -> None:
+        """The run begins anew."""
+        self.last, self.rates = {}, Growth()
+        self.error, self.error_due = None, 0.0
+
+    def row(self, sim, ms: float, updates: float) -> list:
+        """The numbers of COLUMNS at present; None where a scene has none.
+
+        Drifts as in diagnostics.ledger; error: the scene's `measure`, else the mean of its errors; div_B: the mean of
+        h|div B|/|B|; gaps in spacings.
+        """
+        columns = sim.columns()
+        found = rows(sim, columns)
+        drift = drifts(sim, columns)
+        shaken = noise(found, columns)
+        self.rates.add(sim.time, shaken)
+        self.last = {
+            "t": sim.time,
+            "ms": ms,
+            "updates": updates,
+            "E_drift": drift["energy_drift"],
+            "E_drift_predicted": drift["energy_drift_predicted"],
+            "p_drift": drift["momentum_drift"],
+            "p_drift_predicted": drift["momentum_drift_predicted"],
+            **gaps(sim, columns, found),
+            "div_B": float(div_B(sim, columns).mean()) if "B" in columns else None,
+            "error": self.measured(sim, columns),
+            "noise": shaken,
+        }
+        self.pace = pace(sim, columns)
+        return [self.last[name] for name in COLUMNS]
+
+    def measured(self, sim, columns: dict) -> float | None:
+        """The error against the exact solution or the stored map; what takes long is not asked every time."""
+        clock = time.monotonic()
+        if clock >= self.error_due:
+            every = errors(sim, columns)
+            value = every.get(sim.scene.measure, np.mean(list(every.values())) if every else None)
+            self.error = None if value is None else float(value)
+            self.error_due = clock + RARELY * (time.monotonic() - clock)
+        return self.error
+
+    def growth(self) -> float | None:
+        """The rate of the noise in v_A/dx with a field, else in c_s/dx; None where it does not grow."""
+        rate = self.rates.rate()
+        return None if rate is None else rate / self.pace
+
+
+def gaps(sim, columns: dict, found) -> dict[str, float]:
+    """Mean and smallest distance to the nearest neighbour, in spacings, and the share closer than half a spacing."""
+    kernel = sim.neighbours.kernel
+    most = sim.neighbours.pad * kernel.support * kernel.h_fact  # of a lonely particle: the least its gap can be
+    density = (columns["rho"] / columns["m"])[found.ids] ** (1 / sim.dim)
+    values = np.minimum(np.sqrt(squared_gaps(found).astype(float)) * density, most)
+    return {
+        "mean_gap": float(values.mean()),
+        "smallest_gap": float(values.min()),
+        "close_pairs": float((values < CLOSE).mean()),
+    }
+
+
+def pace(sim, columns: dict) -> float:
+    """v_A/dx, or c_s/dx without a field: r.m.s. speed over the mean spacing."""
+    rho = columns["rho"].astype(float)
+    speed = columns["vw"].astype(float)
+    if "B" in columns and columns["B"].any():
+        speed = np.sqrt((columns["B"].astype(float) ** 2).sum(axis=1) / rho)
+    dx = ((columns["m"] / rho) ** (1 / sim.dim)).mean()
+    return float(np.sqrt((speed**2).mean()) / dx)
