@@ -31,7 +31,7 @@ export const english = {
   "brush.radius": "Radius",
   "brush.radius.tip": "radius of the brush, in parts of the shorter side of the box",
   "brush.strength": "Strength",
-  "brush.strength.tip": "of a pulse, in parts of what is there; negative takes away",
+  "brush.strength.tip": "of a push, or of a pulse in parts of what is there; negative pulls back or takes away",
   "pictures": "Pictures",
   "settings": "Settings",
   "scene.section": "Scene",

@@ -31,7 +31,7 @@ export const japanese = {
   "brush.radius": "半径",
   "brush.radius.tip": "ブラシの半径(計算領域の短辺に対する比)",
   "brush.strength": "強さ",
-  "brush.strength.tip": "パルスの強さ(元の値に対する比)。負にすると減らす",
+  "brush.strength.tip": "押す強さ、またはパルスの強さ(元の値に対する比)。負にすると引く・減らす",
   "pictures": "画像",
   "settings": "設定",
   "scene.section": "シーン",

@@ -10,6 +10,7 @@ import { word } from "./words.js";
 
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 const STRIDE = 0.03; // of the box, an arrow key
+const FORCE = 4; // a stroke over a brush's width gives about a quarter of the fastest signal speed at strength 1
 
 /** Wire a panel. */
 export function pointer(panel) {
@@ -92,7 +93,7 @@ function pushing(panel) {
   const post = newest((at) => {
     const [dx, dy] = sum;
     sum = [0, 0];
-    const by = { dx, dy: live.setup.box.profile ? 0 : dy };
+    const by = { dx: FORCE * tool.strength * dx, dy: live.setup.box.profile ? 0 : FORCE * tool.strength * dy };
     return send({ do: "poke", panel: panel.k, kind: "push", ...asked(at), ...by, radius: radius() });
   });
   return (at, [dx, dy]) => {
