@@ -59,6 +59,24 @@ def test_every_word_that_is_asked_for_is_known():
     assert asked <= known.keys()
 
 
+def test_no_word_is_left_over():
+    code = text("*.html") + "".join(path.read_text(encoding="utf-8") for path in PAGE.glob("*.js"))
+    lists = {
+        "tool",
+        "draw",
+        "limits",
+        "record",
+        "plot",
+        "line",
+        "read",
+        "busy",
+        "name",
+        "part",
+    }  # put together: `name.${x}`
+    alone = {key for key in words("english") if key.split(".")[0] not in lists}
+    assert not {key for key in alone if len(re.findall(rf'"{re.escape(key)}"', code)) < 3}  # two dictionaries and a use
+
+
 def test_every_module_that_is_imported_stands_beside():
     for path in PAGE.glob("*.js"):
         for name in re.findall(r'from "\./([\w.]+)"', path.read_text(encoding="utf-8")):

@@ -73,6 +73,7 @@ function grid(c, x, y, w, h, colours, log) {
     c.lineTo(w - EDGE.right, at);
     c.fillText(short(value), EDGE.left - 4, at);
   }
+  c.fillText("t", EDGE.left - 4, h - 8);
   c.textAlign = "center";
   c.textBaseline = "alphabetic";
   for (const value of ticks(x.lo, x.hi, 4)) {
