@@ -155,7 +155,6 @@ def test_two_panels_keep_step_and_differ_in_what_was_slid(page):
     assert first["steps"] == second["steps"]
     assert first["t"] == second["t"]
     # xi = 0 clumps, its neighbour with xi = 1 keeps the lattice
-    print(first, second)
     assert first["close_pairs"] > 0.05  # measured 0.125; the clumps bounce, and lock step has other steps than alone
     assert first["mean_gap"] < 0.75
     assert second["close_pairs"] == 0
@@ -234,6 +233,26 @@ def test_the_page_fits_a_laptop_and_a_phone(page, width, height, tmp_path):
         assert picture.stat().st_size > 10_000
     finally:
         page.driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+
+
+def test_a_run_that_goes_wrong_says_so_keeps_its_picture_and_offers_reset(page):
+    page.click("step")
+    # a push a million box widths long: no time step can follow
+    page.driver.execute_async_script(
+        "const done = arguments[0]; import('./api.js').then((m) => m.send({do: 'poke', panel: 0, kind: 'push', x: 0.5,"
+        " y: 1.0, dx: 1e6, dy: 0, radius: 0.2})).then(done)"
+    )
+    page.click("play")
+    page.until("live.state.panels[0].failed")
+    page.until("document.getElementById('message').innerText.includes('went wrong')")
+    assert not page.js("live.state.playing")
+    assert page.picture_is_drawn()
+    page.until("document.querySelector('.sign').innerText.includes('went wrong')")  # told four times a second
+    page.click("message-reset")
+    page.until("!live.state.panels[0].failed && live.state.panels[0].t === 0")
+    page.click("step")
+    page.until("live.state.panels[0].steps === 1")  # it runs again
+    assert not page.find("message-reset").is_displayed()
 
 
 def test_a_refused_wish_is_said_and_disturbs_nothing(page):
