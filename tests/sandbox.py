@@ -10,6 +10,10 @@ from pathlib import Path
 ROOT = Path(__file__).parent.parent
 WAIT = 30.0  # seconds for anything to happen on a machine with two busy cores; compiling is the slowest
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+SHOW = """
+    for (let box = arguments[0].closest("details"); box; box = box.parentElement.closest("details")) box.open = true;
+    arguments[0].scrollIntoView({block: "center"});
+"""
 FLAGS = ("--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--force-device-scale-factor=1")
 
 
@@ -94,7 +98,7 @@ class Page:
         """Press a button, or tick a box, as a pointer does, and wait until the run has done it."""
         asked = self.js("live.timings.length ? live.timings.at(-1).id : 0")
         element = self.find(name)
-        self.driver.execute_script("arguments[0].scrollIntoView({block: 'center'})", element)
+        self.driver.execute_script(SHOW, element)
         element.click()
         self.until(f"live.timings.at(-1)?.id > {asked} && live.timings.every((one) => one.applied !== null)")
 

@@ -112,6 +112,7 @@ class Session:
             self.grant(wish)
         if self.slid and time.monotonic() - self.slid > QUIET:
             self.changed()
+            self.shown.stale = True  # a run at rest must say so, too
         for question, answer in self.desk.questions():
             answer(deeds.particle(self, question))
         stepped = self.playing and self.clock.due(self.speed) and self.advance()

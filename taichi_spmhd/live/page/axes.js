@@ -60,7 +60,8 @@ export function colourBar(width) {
   svg.append(draw("defs", {}, draw("linearGradient", { id: "shades" }, ...stops)));
   const long = width - 2 * BAR.side;
   svg.append(draw("text", { class: "title", x: BAR.side, y: 12, text: shown() }));
-  svg.append(draw("rect", { x: BAR.side, y: 18, width: long, height: BAR.height, fill: "url(#shades)", class: "shades" }));
+  const strip = { x: BAR.side, y: 18, width: long, height: BAR.height, fill: "url(#shades)", class: "shades" };
+  svg.append(draw("rect", strip));
   const log = isLog();
   for (const value of log ? powers(low, high, 6) : ticks(low, high, Math.min(7, width / 70))) {
     const x = BAR.side + place(value, [low, high], log) * long;

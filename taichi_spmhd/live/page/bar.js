@@ -78,7 +78,8 @@ function key(event) {
   if (event.ctrlKey || event.metaKey || event.altKey || event.isComposing) return;
   if (event.target.closest("input:not([type=range]), select, textarea")) return;
   if (event.key === " " && event.target.closest("button, summary, a")) return;
-  const done = { " ": playOrPause, s: () => send({ do: "step" }), r: () => send({ do: "reset" }) }[event.key.toLowerCase()];
+  const keys = { " ": playOrPause, s: () => send({ do: "step" }), r: () => send({ do: "reset" }) };
+  const done = keys[event.key.toLowerCase()];
   if (!done) return;
   event.preventDefault();
   if (!event.repeat || event.key.toLowerCase() === "s") done();

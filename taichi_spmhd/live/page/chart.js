@@ -51,7 +51,8 @@ function scale(values, from, to, { log, zero }) {
   let lo = values.reduce((a, b) => Math.min(a, b), Infinity);
   let hi = values.reduce((a, b) => Math.max(a, b), -Infinity);
   if (zero) [lo, hi] = [Math.min(lo, 0), Math.max(hi, 0)];
-  if (!(hi - lo > 1e-12 * Math.abs(hi))) [lo, hi] = log ? [lo / 2, hi * 2] : [lo - (Math.abs(lo) || 1) / 2, hi + (Math.abs(hi) || 1) / 2];
+  const half = (Math.abs(hi) || 1) / 2;
+  if (!(hi - lo > 1e-12 * Math.abs(hi))) [lo, hi] = log ? [lo / 2, hi * 2] : [lo - half, hi + half]; // a level line
   const way = log ? Math.log : (value) => value;
   const map = (value) => from + ((way(value) - way(lo)) / (way(hi) - way(lo))) * (to - from);
   return Object.assign(map, { lo, hi });
@@ -72,6 +73,7 @@ function grid(c, x, y, w, h, colours, log) {
     c.lineTo(w - EDGE.right, at);
     c.fillText(short(value), EDGE.left - 4, at);
   }
+  c.fillText("t", EDGE.left - 4, h - 8);
   c.textAlign = "center";
   c.textBaseline = "alphabetic";
   for (const value of ticks(x.lo, x.hi, 4)) {

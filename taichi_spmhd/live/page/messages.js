@@ -4,6 +4,10 @@ import { byId, write } from "./dom.js";
 import { live, on } from "./store.js";
 import { word } from "./words.js";
 
+const SAID = [
+  [/^t_end = (\S+) is reached/, "said.end"],
+  [/^written: (.*)$/, "said.written"],
+];
 let refused = null;
 
 /** Listen to all that can go wrong. */
@@ -25,8 +29,17 @@ function said() {
   if (refused) return ["error", refused];
   const failed = state.panels.find((panel) => panel.failed);
   if (failed) return ["error", word("failed", { label: failed.label, text: failed.failed })];
-  if (state.message) return [state.message.kind, state.message.text];
+  if (state.message) return [state.message.kind, translated(state.message.text)];
   return state.recording ? ["info", word("recording")] : ["info", ""];
+}
+
+/** The two things that the run says every day, in the reader's language; all else as it comes. */
+function translated(text) {
+  for (const [pattern, key] of SAID) {
+    const found = text.match(pattern);
+    if (found) return word(key, { what: found[1] });
+  }
+  return text;
 }
 
 /** What the run is busy with, in words. */

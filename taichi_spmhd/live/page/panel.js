@@ -10,7 +10,7 @@ import { short } from "./ticks.js";
 import { word } from "./words.js";
 
 const SHARPEST = 1.5; // pixels of the picture a pixel of the page: more costs time and shows little
-const LARGEST = 1200;
+const LARGEST = { particles: 1200, nearest: 800, sph: 400 }; // of the longer side: smooth pictures cost by the pixel
 
 /** The panel number k; elements are made once and reused. */
 export class Panel {
@@ -29,7 +29,8 @@ export class Panel {
 
   /** Width and height of the frames to ask for. */
   get pixels() {
-    const sharp = Math.min(devicePixelRatio || 1, SHARPEST, LARGEST / Math.max(...this.size));
+    const largest = live.setup.box.profile ? LARGEST.particles : LARGEST[live.setup.draw.draw];
+    const sharp = Math.min(devicePixelRatio || 1, SHARPEST, largest / Math.max(...this.size));
     return this.size.map((side) => Math.max(64, 2 * Math.round((side * sharp) / 2)));
   }
 

@@ -1,4 +1,4 @@
-// The parts of each panel: a switch, sliders, and on demand the equation with its advice; and parts that could be added.
+// The parts of each panel: a switch, sliders, on demand the equation with its advice; and parts that could be added.
 import { send } from "./api.js";
 import { byId, make, refill } from "./dom.js";
 import { equation, greek } from "./greek.js";
@@ -9,6 +9,7 @@ import { known, word } from "./words.js";
 
 let shape = null;
 let shows = []; // [panel, part, number, show]
+const been = new Map(); // parts that were on in a scene, in order: switched off, they stay in their place
 
 /** Make the section and keep it up to date. */
 export function startParts() {
@@ -45,11 +46,21 @@ function show() {
 /** Heading (if there are two), the parts, and what could be added. */
 function ofPanel(panel, k, panels) {
   const heading = make("h3", { text: word("effects.of", { label: panel.label }) });
-  const there = panel.parts.filter((part) => part.on).map((part) => ofPart(part, k));
-  const others = panel.parts.filter((part) => !part.on);
+  const placed = places(panel);
+  const there = placed.map((name) => ofPart(panel.parts.find((part) => part.name === name), k));
+  const others = panel.parts.filter((part) => !placed.includes(part.name));
   const more = make("details", { id: `more-${k}`, class: "more" }, make("summary", { text: word("effects.more") }));
   more.append(...others.map((part) => ofPart(part, k)));
   return [...(panels.length > 1 ? [heading] : []), ...there, ...(others.length ? [more] : [])];
+}
+
+/** Names of the parts that are on, or were, in the order in which they came; bounded by the parts there are. */
+function places(panel) {
+  const key = `${live.setup.scene} ${panel.label}`;
+  const before = been.get(key) ?? [];
+  const fresh = panel.parts.filter((part) => part.on && !before.includes(part.name)).map((part) => part.name);
+  been.set(key, [...before, ...fresh]);
+  return been.get(key).filter((name) => panel.parts.some((part) => part.name === name));
 }
 
 /** The name of a part in the reader's language. */

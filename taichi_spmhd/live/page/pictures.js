@@ -1,7 +1,7 @@
-// The pictures of one or two panels: laid out in the room there is, fed by long polls, both of the same number.
-import { get, pause } from "./api.js";
+// The pictures of one or two panels: laid out in the room there is, with the colour bar and the numbers below.
 import { colourBar } from "./axes.js";
 import { byId, write } from "./dom.js";
+import { feed, frames } from "./frames.js";
 import { Panel } from "./panel.js";
 import { live, on } from "./store.js";
 import { short } from "./ticks.js";
@@ -11,15 +11,15 @@ const made = []; // panels ever made; they are reused
 const TELL = 250; // milliseconds between two texts below the pictures
 let shownPanels = [];
 let told = 0;
+let due = 0;
 let below = 0; // the most height that the numbers below a picture have taken
 let laid = null; // what the layout was made for
-let gone = new AbortController(); // of the frames asked for in a size that is no longer wanted
 
 /** Follow the setup, the state and the window. */
 export function startPictures() {
   on("setup", lay);
   on("language", lay);
-  on("state", tellNumbers);
+  on("state", tellSoon);
   let waiting = 0;
   const later = () => {
     clearTimeout(waiting);
@@ -63,10 +63,7 @@ function fill() {
   byId("colours").replaceChildren(...(bar ? [bar] : []));
   const [w, h] = room(wide, number);
   for (const panel of shownPanels) panel.lay(w, h);
-  if (before !== JSON.stringify(shownPanels.map((panel) => panel.size))) {
-    gone.abort();
-    gone = new AbortController();
-  }
+  if (before !== JSON.stringify(shownPanels.map((panel) => panel.size))) feed(shownPanels);
 }
 
 /** Room for the stage of each panel: beside each other where the page is wide, else below. */
@@ -82,80 +79,20 @@ function room(wide, number) {
   return [(wide - 12 * (number - 1)) / number, Math.max(220, high)];
 }
 
-/** Texts below the pictures, a few times a second. */
+/** Texts below the pictures, a few times a second; the last state is always told. */
+function tellSoon() {
+  due ||= setTimeout(tellNumbers, Math.max(0, TELL - (performance.now() - told)));
+}
+
+/** Texts below the pictures, now. */
 function tellNumbers() {
-  const now = performance.now();
-  if (!live.state || !live.setup || now - told < TELL) return;
-  told = now;
+  clearTimeout(due);
+  due = 0;
+  told = performance.now();
+  if (!live.state || !live.setup) return;
   shownPanels.forEach((panel, k) => live.state.panels[k] && panel.tell(live.state.panels[k]));
   const { frames_per_s: frames, share } = live.state.clock;
   const height = Math.max(...shownPanels.map((panel) => panel.readout.element.offsetHeight));
   write(byId("clock"), word("read.frames", { frames: short(frames), share: short(100 * share) }));
   if (height > below && below > 0) fill(); // a number that was not there before takes room
-}
-
-/** Ask for a frame newer than `after`: {number, blob}, or null where the answer is none. */
-async function frame(k, after) {
-  const [width, height] = shownPanels[k].pixels;
-  const answer = await get(`frame?panel=${k}&after=${after}&width=${width}&height=${height}`, { signal: gone.signal });
-  const number = Number(answer.headers.get("X-Frame"));
-  const blob = await answer.blob();
-  return answer.status === 200 && blob.size && number > after ? { number, blob } : null;
-}
-
-/** Frames of all panels with the same number; whichever lags behind is asked for again. */
-async function together(after) {
-  const found = await Promise.all(shownPanels.map((_, k) => frame(k, after)));
-  for (let tries = 0; tries < 5 && found.every(Boolean); tries++) {
-    const newest = Math.max(...found.map((one) => one.number));
-    const behind = found.findIndex((one) => one.number < newest);
-    if (behind < 0) return found;
-    found[behind] = await frame(behind, newest - 1);
-  }
-  return null;
-}
-
-/** Decode and draw; nothing is kept. */
-async function show(found, panels) {
-  const bitmaps = await Promise.all(found.map((one) => createImageBitmap(one.blob)));
-  if (panels === shownPanels) bitmaps.forEach((bitmap, k) => panels[k].show(bitmap));
-  bitmaps.forEach((bitmap) => bitmap.close());
-  live.frames.shown += 1;
-  live.frames.number = found[0].number;
-}
-
-/** Until the tab can be seen. */
-function visible() {
-  if (!document.hidden) return null;
-  return new Promise((done) => document.addEventListener("visibilitychange", done, { once: true }));
-}
-
-/** Ask, show, ask again, for ever; with patience where nobody answers. */
-async function frames() {
-  let after = -1;
-  let lost = 0;
-  let size = null;
-  for (;;) {
-    await visible();
-    if (!shownPanels.length || !live.connected) {
-      await pause(100);
-      continue;
-    }
-    const now = JSON.stringify(shownPanels.map((panel) => panel.pixels));
-    if (now !== size) after = -1; // another size: the frame of now is wanted again
-    size = now;
-    try {
-      const panels = shownPanels;
-      const found = await together(after);
-      if (found) {
-        after = found[0].number;
-        await show(found, panels);
-      } else await pause(30);
-      lost = 0;
-    } catch {
-      lost += 1;
-      if (lost > 2) after = -1;
-      await pause(Math.min(4000, 50 * 2 ** lost));
-    }
-  }
 }

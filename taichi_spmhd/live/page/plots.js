@@ -13,8 +13,8 @@ const PLOTS = [
   { key: "divergence", columns: { value: "div_B" }, log: true },
   { key: "error", columns: { value: "error" }, zero: true },
   { key: "noise", columns: { value: "noise" }, log: true },
-  { key: "ms", columns: { value: "ms" }, zero: true },
-  { key: "updates", columns: { value: "updates" }, zero: true, text: count },
+  { key: "ms", columns: { value: "ms" }, zero: true, speed: true },
+  { key: "updates", columns: { value: "updates" }, zero: true, speed: true, text: count },
 ];
 const COLOURS = ["measured", "predicted"];
 const APART = 200; // milliseconds between two drawings
@@ -61,7 +61,8 @@ class Plot {
   lines() {
     return live.setup.panels.flatMap((panel, k) =>
       Object.entries(this.plot.columns).map(([name, column], c) => {
-        return { points: points(k, column), colour: COLOURS[c], dashed: k > 0, panel: panel.label, name };
+        const found = points(k, column, !this.plot.speed);
+        return { points: found, colour: COLOURS[c], dashed: k > 0, panel: panel.label, name };
       }),
     );
   }

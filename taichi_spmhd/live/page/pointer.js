@@ -10,6 +10,7 @@ import { word } from "./words.js";
 
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 const STRIDE = 0.03; // of the box, an arrow key
+const FORCE = 4; // a stroke over a brush's width gives about a quarter of the fastest signal speed at strength 1
 
 /** Wire a panel. */
 export function pointer(panel) {
@@ -92,7 +93,7 @@ function pushing(panel) {
   const post = newest((at) => {
     const [dx, dy] = sum;
     sum = [0, 0];
-    const by = { dx, dy: live.setup.box.profile ? 0 : dy };
+    const by = { dx: FORCE * tool.strength * dx, dy: live.setup.box.profile ? 0 : FORCE * tool.strength * dy };
     return send({ do: "poke", panel: panel.k, kind: "push", ...asked(at), ...by, radius: radius() });
   });
   return (at, [dx, dy]) => {
@@ -114,14 +115,15 @@ function brush(panel, at) {
   const x = ((at[0] - across[0]) / (across[1] - across[0])) * w;
   const y = (1 - (at[1] - up[0]) / (up[1] - up[0])) * h;
   const r = (radius() / (across[1] - across[0])) * w;
-  const shape = tool.name === "look" ? draw("path", { d: `M${x - 7} ${y}h14M${x} ${y - 7}v14` }) : draw("circle", { cx: x, cy: y, r });
-  panel.over.replaceChildren(shape);
+  const cross = () => draw("path", { d: `M${x - 7} ${y}h14M${x} ${y - 7}v14` });
+  panel.over.replaceChildren(tool.name === "look" ? cross() : draw("circle", { cx: x, cy: y, r }));
 }
 
 /** Ask for the particle at a place and show its members in a small table beside it. */
 async function reading(panel, at, table) {
   const { x, y } = asked(at);
-  const found = await getJSON(`particle?panel=${panel.k}&x=${x.toPrecision(7)}&y=${y.toPrecision(7)}`).catch(() => null);
+  const place = `x=${x.toPrecision(7)}&y=${y.toPrecision(7)}`;
+  const found = await getJSON(`particle?panel=${panel.k}&${place}`).catch(() => null);
   if (!found?.members || tool.name !== "look" || !panel.over.childElementCount) return;
   const cell = (value) => (Array.isArray(value) ? value.map((one) => short(one)).join(", ") : short(value));
   const rows = Object.entries(found.members).map(([name, value]) =>

@@ -8,8 +8,8 @@ const NUMBERS = {
   t: (s) => short(s.t, 4),
   steps: (s) => String(s.steps),
   particles: (s) => String(s.particles),
-  ms: (s) => short(s.ms),
-  updates: (s) => count(s.updates),
+  ms: (s) => short(s.ms || null), // 0: nothing measured yet
+  updates: (s) => count(s.updates || null),
   gap: (s) => short(s.mean_gap),
   close: (s) => (s.close_pairs === null ? "–" : `${short(100 * s.close_pairs)} %`),
   growth: (s) => `${short(s.growth)} | ${short(s.growth_predicted)}`,

@@ -35,9 +35,10 @@ function grow(kept, fresh) {
   kept.splice(0, half, ...older);
 }
 
-/** Columns of a panel's rows as (t, value) points; nulls left out. */
-export function points(panel, column) {
+/** A column of a panel's rows as (t, value) points, without nulls; without zeros where they mean "not measured yet". */
+export function points(panel, column, zeros = true) {
   const k = live.setup.columns.indexOf(column);
   if (k < 0) return [];
-  return (live.rows[panel] ?? []).filter((row) => row[k] !== null && row[0] !== null).map((row) => [row[0], row[k]]);
+  const there = (row) => row[0] !== null && row[k] !== null && (zeros || row[k] !== 0);
+  return (live.rows[panel] ?? []).filter(there).map((row) => [row[0], row[k]]);
 }

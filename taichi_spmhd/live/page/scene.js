@@ -9,7 +9,9 @@ let shape = null;
 
 /** A section of the settings; built once, filled by its module. */
 export function section(id, key, open = true) {
-  const box = make("details", { id: `section-${id}`, open }, make("summary", { "data-word": key }), make("div", { id }));
+  const unfolded = open && !matchMedia("(max-width: 699px)").matches; // a phone shows the effects first
+  const box = make("details", { id: `section-${id}`, open: unfolded || id === "effects" });
+  box.append(make("summary", { "data-word": key }), make("div", { id }));
   byId("settings").append(box);
 }
 
@@ -90,7 +92,8 @@ function input({ name, kind, value, choices }) {
   }
   if (kind === "bool") return make("input", { id, type: "checkbox", checked: value });
   if (kind === "str") return make("input", { id, type: "text", maxlength: 100, value: value ?? "" });
-  return make("input", { id, type: "number", step: kind === "int" ? 1 : "any", value: value ?? "", required: value !== null });
+  const step = kind === "int" ? 1 : "any";
+  return make("input", { id, type: "number", step, value: value ?? "", required: value !== null });
 }
 
 /** Its value, of the right type. */

@@ -9,8 +9,8 @@ let language = first();
 
 /** ?lang=ja, else what was chosen before, else what the browser prefers. */
 function first() {
-  const asked = new URLSearchParams(location.search).get("lang") ?? remembered("language") ?? navigator.language ?? "en";
-  return asked.toLowerCase().startsWith("ja") ? "ja" : "en";
+  const asked = new URLSearchParams(location.search).get("lang") ?? remembered("language") ?? navigator.language;
+  return asked?.toLowerCase().startsWith("ja") ? "ja" : "en";
 }
 
 /** The words for a key, with {names} filled in; the key itself where there is none. */
