@@ -1,6 +1,7 @@
 """View: the field of one simulation as pixels, without axes. Members are read once a frame, for all that is drawn."""
 
 import numpy as np
+from PIL import Image
 
 from ..picture import PSEUDO, Picture
 from ..render.colours import auto_limits, palette
@@ -8,10 +9,12 @@ from ..render.columns import columns, values
 from ..render.layout import is_profile
 from ..render.panels import CURVE, DOT
 from ..render.pixels import draw, draw_curve, draw_profile
+from .lines import draw_lines, potential
 
 # what every simulation keeps for itself: nothing that a picture teaches
 INNER = {"x", "x0", "m", "h0", "hinv", "g", "held", "id", "leak_v", "leak_E", "div_v_before"}
 FULL = {"div_B": 0.01, "gap": 1.2}  # the colours reach at least this far from 0: limits stay while these change
+COARSE = 2  # the smoothed field has no structure as small as two pixels of the screen, and costs a quarter
 PAD = 0.06  # of the range, above and below the dots of a profile
 FAINT = 1e-3  # of the other sign: too little to count as a sign of its own
 TINY = 1e-30  # below this colours, which are worked out in f32, know no differences
@@ -48,8 +51,11 @@ def image(sim, picture: Picture, limits: tuple[float, float], size: tuple[int, i
     if is_profile(box):
         dots = draw_profile(box, drawn["x"], drawn["values"], size, limits, DOT, picture.log)
         return draw_curve(dots, box, drawn["exact"], limits, CURVE, picture.log)
+    inner = tuple(max(64, length // COARSE) for length in size) if picture.draw == "sph" else size
     rgb = draw(
-        picture.draw, box, drawn["x"], drawn["values"], drawn["h"], size, palette(picture.colour_map(limits)), limits,
+        picture.draw, box, drawn["x"], drawn["values"], drawn["h"], inner, palette(picture.colour_map(limits)), limits,
         spacing=drawn["spacing"], periodic=sim.scene.boundary.periodic, log=picture.log,
     )  # fmt: skip
-    return rgb
+    if inner != size:
+        rgb = np.asarray(Image.fromarray(rgb).resize(size, Image.Resampling.BILINEAR))
+    return draw_lines(rgb, potential(sim, members)) if lines else rgb
