@@ -114,6 +114,6 @@ def send(port: int, request: bytes, patience: float = 5.0) -> bytes:
             line.shutdown(socket.SHUT_WR)
             while piece := line.recv(65536):
                 answer += piece
-        except (ConnectionError, TimeoutError):
+        except OSError:
             pass
         return answer
