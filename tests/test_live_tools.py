@@ -138,15 +138,15 @@ def test_growth_wants_a_rise_that_lasts():
 def test_records_never_write_over_a_file_and_only_into_their_folder(tmp_path, vortex):
     folder = tmp_path / "new"
     recorder = Recorder(folder)
-    assert recorder.stop() is None and not folder.exists()
+    assert recorder.stop() == [] and not folder.exists()
     names = [recorder.text("scene", "first"), recorder.text("scene", "second")]
     assert names == ["scene_001.py", "scene_002.py"] and (folder / names[0]).read_text() == "first"
     picture = vortex.scene.picture
     recorder.begin({"one": vortex}, picture, (0.0, 1.0), "title")
     assert recorder.shoot({"one": vortex}) and not recorder.shoot({"other": vortex})
-    names = [recorder.stop(), recorder.png({"one": vortex}, picture, (0.0, 1.0), "title")]
+    names = [*recorder.stop(), recorder.png({"one": vortex}, picture, (0.0, 1.0), "title")]
     names += recorder.state(vortex, "A: xi = 1/2")
-    assert names == ["film_001.gif", "picture_001.png", "state_A_xi_1-2_001.npz"]
+    assert names == ["film_001.gif", "film_001.mp4", "picture_001.png", "state_A_xi_1-2_001.npz"]
     assert sorted(path.name for path in tmp_path.iterdir()) == ["new"]
     assert all((folder / name).is_file() for name in names)
 

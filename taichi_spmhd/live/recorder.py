@@ -5,6 +5,7 @@ Names are numbered and no file that is there is written over. The folder is made
 
 import io
 from dataclasses import replace
+from importlib.util import find_spec
 from itertools import count
 from pathlib import Path
 
@@ -14,7 +15,7 @@ from PIL import Image
 from ..errors import InputError
 from ..library import slug
 from ..outputs.files import write_text, writing
-from ..render import Panels, columns, write_gif, write_png
+from ..render import Panels, columns, write_gif, write_mp4, write_png
 
 MOST_FRAMES = 600  # of a film; then it ends by itself
 SECONDS_PER_FRAME = 0.1
@@ -60,17 +61,20 @@ class Recorder:
         self.shots.append(file.getvalue())
         return True
 
-    def stop(self) -> str | None:
-        """Write the film that was recorded; None where there is none."""
+    def stop(self) -> list[str]:
+        """Write the film that was recorded, as GIF and, where ffmpeg is installed, as MP4; the names."""
         shots, panels = self.shots, self.panels
         self.shots, self.panels = [], None
         if not shots:
-            return None
+            return []
         path = self.free("film", "gif")
-        frames = [np.asarray(Image.open(io.BytesIO(shot)).convert("RGB")) for shot in shots]
         with writing(path):
-            write_gif(path, frames, SECONDS_PER_FRAME, palette=panels.palette())
-        return path.name
+            write_gif(path, map(pixels, shots), SECONDS_PER_FRAME, palette=panels.palette())
+        if find_spec("imageio_ffmpeg") is None:
+            return [path.name]
+        with writing(path.with_suffix(".mp4")):
+            write_mp4(path.with_suffix(".mp4"), map(pixels, shots), fps=1 / SECONDS_PER_FRAME)
+        return [path.name, path.with_suffix(".mp4").name]
 
     def state(self, sim, label: str) -> list[str]:
         """All it takes to go on: `Simulation.load` with the recorded scene file."""
@@ -87,6 +91,11 @@ class Recorder:
             self.folder.mkdir(parents=True, exist_ok=True)
         write_text(path, content)
         return path.name
+
+
+def pixels(shot: bytes) -> np.ndarray:
+    """A frame (H, W, 3) from its PNG."""
+    return np.asarray(Image.open(io.BytesIO(shot)).convert("RGB"))
 
 
 def frames_of(sims: dict, picture, limits: tuple[float, float], title: str) -> Panels:

@@ -5,13 +5,15 @@ size. A run that nobody steers has the bits of `Simulation.step` called as often
 """
 
 import time
+import traceback
+from contextlib import ExitStack
 from pathlib import Path
 
 from ..errors import InputError, RunError
-from ..library import load_scene, module, parameters_of, sight
+from ..library import load_scene, parameters_of, sight
 from ..outputs.signals import Stop
 from ..outputs.words import one_line
-from ..parameters import parameters
+from ..picture import Picture
 from ..scene_code import code_of
 from . import deeds, pokes
 from .clock import Clock
@@ -66,7 +68,7 @@ class Session:
             variants = load_scene(path, **given)
             values = parameters_of(path, **given)
             kept = variant if variant in variants else list(variants)[-1]
-            fresh = [Panel(label, variants, kept) for label in ("A", "B")[: max(1, len(self.panels))]]
+            fresh = opened(variants, kept, max(1, len(self.panels)))
         for panel in self.panels:
             panel.close()
         self.path, self.parameters, self.panels = path, values, fresh
@@ -75,23 +77,15 @@ class Session:
         self.changed()
         self.shown.anew()
 
-    def described_parameters(self) -> list[dict]:
-        """Parameters of the scene file with their present values."""
-        known = parameters(module(self.path).scenes)
-        return [
-            {"name": p.name, "kind": p.kind.__name__ if p.kind else "str", "value": self.parameters[p.name]}
-            | {"choices": list(p.choices)}
-            for p in known.values()
-        ]
-
     def pokes(self) -> list[str]:
         """The ways in which this scene may be poked."""
         return pokes.allowed(self.first.sim)
 
     def changed(self) -> None:
         """Something the page chooses from is different."""
-        if not self.look.fits(self.first.sim):
-            self.look = Look(self.first.scene.picture)
+        for picture in (self.first.scene.picture, Picture()):
+            if not self.look.fits(self.first.sim):
+                self.look = Look(picture)
         self.look.settle(self.sims)
         self.version, self.slid = self.version + 1, 0.0
         self.desk.publish_setup(setup(self))
@@ -152,11 +146,17 @@ class Session:
         """Do what was asked, or say why not."""
         self.message = None
         try:
-            deeds.DEEDS[wish["do"]](self, wish)
+            if wish.get("panel", 0) >= len(self.panels):
+                raise InputError("that panel is no longer there")
+            with code_of(self.path):
+                deeds.DEEDS[wish["do"]](self, wish)
         except (InputError, RunError) as error:
             self.say(one_line(error), "error")
         except MemoryError:
             self.say("not enough memory for this many particles; lower nx", "error")
+        except Exception as error:  # a mistake of ours: the class goes on, and whoever reads the terminal sees it
+            traceback.print_exc()
+            self.say(f"{type(error).__name__}: {one_line(error)}", "error")
         self.applied = max(self.applied, wish["id"])
         self.busy = None
         self.shown.touched()
@@ -169,6 +169,17 @@ class Session:
         """Tell the page before the main thread is busy for a second."""
         self.busy = "compiling"
         self.shown.publish()
+
+
+def opened(variants: dict, variant: str, count: int) -> list[Panel]:
+    """Panels at their start; if one cannot be, none stays behind."""
+    with ExitStack() as stack:
+        made = []
+        for label in ("A", "B")[:count]:
+            made.append(Panel(label, variants, variant))
+            stack.callback(made[-1].close)
+        stack.pop_all()
+    return made
 
 
 def unhurried(panel: Panel) -> float:

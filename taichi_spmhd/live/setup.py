@@ -5,6 +5,7 @@ from functools import lru_cache
 
 from .. import kernels, library, terms
 from ..errors import InputError
+from ..parameters import parameters
 from ..render.colours import palette
 from ..render.layout import is_profile
 from ..sliding import numbers
@@ -23,7 +24,7 @@ def setup(session) -> dict:
         "version": session.version,
         **texts(session.path),
         "scene": session.scene_name,
-        "parameters": session.described_parameters(),
+        "parameters": described_parameters(session),
         "kernels": KERNELS,
         "box": {"lo": scene.box.lo, "hi": scene.box.hi, "dim": scene.dim, "profile": is_profile(scene.box)},
         "device": session.device,
@@ -45,6 +46,16 @@ def texts(path) -> dict:
         "about": library.docstring(path),
         "scenes": [{"name": entry.name, "sight": entry.sight} for entry in library.listing()],
     }
+
+
+def described_parameters(session) -> list[dict]:
+    """Parameters of the scene file with their present values."""
+    known = parameters(library.module(session.path).scenes)
+    return [
+        {"name": p.name, "kind": p.kind.__name__ if p.kind else "str", "value": session.parameters[p.name]}
+        | {"choices": list(p.choices)}
+        for p in known.values()
+    ]
 
 
 def shades(name: str) -> list[str]:

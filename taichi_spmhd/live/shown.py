@@ -126,7 +126,6 @@ class Shown:
 
     def note(self, names: list[str]) -> None:
         """Files that were written."""
-        names = [name for name in names if name]
         self.files += names
         if names:
             self.session.say(f"written: {', '.join(names)} in {self.session.recorder.folder}")
@@ -151,9 +150,9 @@ class Shown:
             self.note(self.end_film())
 
     def end_film(self) -> list[str]:
-        """Write the film; its name."""
+        """Write the film; its names."""
         self.filming = False
-        return [self.session.recorder.stop()]
+        return self.session.recorder.stop()
 
 
 def whole(value):
