@@ -1,4 +1,4 @@
-"""Members of particles when terms come and go on the way: what a departing one evolved is emptied, an arriving one opens.
+"""Members when terms come and go on the way: what a departing one evolved is emptied, an arriving one opens its own.
 
 The ledger's members (leak_v, leak_E) go on: what terms did to momentum and energy is not undone by switching them off.
 """
