@@ -31,7 +31,7 @@ class Desk:
     # what the main thread does
 
     def take(self) -> list[dict]:
-        """The wishes, in the order in which they came; each with its "id"."""
+        """The wishes, in the order in which they came; each with its "id" and when it came, "at"."""
         with self.changed:
             wishes, self.wishes = self.wishes, []
             return wishes
@@ -92,11 +92,12 @@ class Desk:
         """A wish for the main thread; returns its number. Raises Full."""
         with self.changed:
             self.given += 1
+            wish = {**wish, "id": self.given, "at": time.monotonic()}
             before = next((k for k, other in enumerate(self.wishes) if replaces(wish, other)), None)
             if before is not None:
-                self.wishes[before] = {**self.wishes[before], **wish, "id": self.given}
+                self.wishes[before] = {**self.wishes[before], **wish}
             elif len(self.wishes) < MOST_WISHES:
-                self.wishes.append({**wish, "id": self.given})
+                self.wishes.append(wish)
             else:
                 raise Full
             self.stir()

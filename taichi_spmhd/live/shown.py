@@ -6,8 +6,8 @@ import time
 from ..errors import InputError
 from .readings import COLUMNS
 
-FRAME, STATE, ROW = 1 / 30, 0.05, 0.2  # seconds between two frames, states and rows, at the least
-EFFORT = 0.1  # share of the time that rows may take
+FRAME, STATE, ROW = 1 / 30, 0.1, 0.25  # seconds between two frames, states and rows, at the least
+EFFORT = 0.06  # share of the time that rows may take
 LOOKING, SMOOTH = 0.35, 1 / 20  # share of the time that frames may take; seconds between two that look smooth
 FILM_FRAMES = 100  # of a film that covers the scene's whole time
 MOST_FILES = 50
