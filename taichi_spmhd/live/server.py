@@ -13,7 +13,7 @@ from .desk import Desk, Full
 from .doors import Refused
 
 PATIENCE, ANSWER = 10.0, 2.0  # seconds a long poll waits, and a question
-MOST_CONNECTIONS, SLOWEST = 32, 15  # seconds a request may take to arrive
+MOST_CONNECTIONS, SLOWEST = 64, 5  # seconds that a request may pause on its way
 HEADERS = {
     "Cache-Control": "no-store",
     "X-Content-Type-Options": "nosniff",
