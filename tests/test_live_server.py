@@ -10,11 +10,13 @@ from client import Client
 from hostile import requests, send
 
 from taichi_spmhd.errors import InputError
-from taichi_spmhd.live import server as serving
+from taichi_spmhd.live import answers
 from taichi_spmhd.live.actions import checked
-from taichi_spmhd.live.desk import MOST_WISHES, Desk, Full
+from taichi_spmhd.live.desk import Desk
 from taichi_spmhd.live.plots import MOST, Plots
 from taichi_spmhd.live.server import Server
+from taichi_spmhd.live.wishes import MOST as MOST_WISHES
+from taichi_spmhd.live.wishes import Full
 
 XI = {"name": "xi", "value": 1.0, "low": 0.0, "high": 1.0, "start": 1.0}
 SETUP = {
@@ -104,7 +106,7 @@ def test_a_long_poll_answers_when_the_state_changes(client, desk):
 
 
 def test_a_long_poll_of_a_paused_run_answers_after_a_while(client, monkeypatch):
-    monkeypatch.setattr(serving, "PATIENCE", 0.2)
+    monkeypatch.setattr(answers, "PATIENCE", 0.2)
     assert client.get("state?after=99&row=0")["seq"] == 1
 
 
@@ -132,7 +134,7 @@ def test_a_question_is_answered_by_the_main_thread_or_in_time_refused(client, de
 
     threading.Thread(target=main_thread).start()
     assert client.get("particle?panel=0&x=.5&y=-1e-2") == {"id": 3, "asked": {"panel": 0, "x": 0.5, "y": -0.01}}
-    monkeypatch.setattr(serving, "ANSWER", 0.1)
+    monkeypatch.setattr(answers, "ANSWER", 0.1)
     assert client.request("GET", "particle?panel=0&x=0&y=0")[0] == 503
 
 

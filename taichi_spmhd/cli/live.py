@@ -63,16 +63,18 @@ def chosen(args, path) -> None:
 def tell(server, args, say) -> None:
     """The address, and the browser."""
     say(f"spmhd live: {server.url}   (Ctrl-C ends it)")
-    if args.host not in ("127.0.0.1", "::1", "localhost"):
+    if not server.address.is_loopback:
         say("spmhd live: whoever has this address can steer the run, over plain HTTP; others cannot")
     if not args.no_browser:
         threading.Thread(target=browse, args=(server.url,), daemon=True).start()
 
 
 def browse(url: str) -> None:
-    """Open the browser; without one the printed address is enough."""
-    import webbrowser
+    """Open the browser, in a process of its own without our terminal: a text browser would take it, others chatter."""
+    import subprocess
+    import sys
     from contextlib import suppress
 
-    with suppress(Exception):
-        webbrowser.open(url)
+    with suppress(OSError):
+        quiet = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.DEVNULL)
+        subprocess.run([sys.executable, "-m", "webbrowser", url], **quiet, start_new_session=True, check=False)
