@@ -19,7 +19,7 @@ def queued(*wishes: dict) -> list[dict]:
     queue = Wishes()
     for wish in wishes:
         queue.put(wish)
-    return queue.take()
+    return [{key: value for key, value in wish.items() if key != "at"} for wish in queue.take()]
 
 
 def test_a_dragged_slider_leaves_one_wish_with_the_last_value():
@@ -73,4 +73,5 @@ def test_a_wish_wakes_the_main_thread():
     desk = Desk()
     desk.put({"do": "play"})
     desk.wait(60.0)  # returns at once, or the test's own limit ends it
-    assert desk.take() == [{"do": "play", "id": 1}]
+    (wish,) = desk.take()
+    assert wish["do"] == "play" and wish["id"] == 1

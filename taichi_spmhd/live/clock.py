@@ -10,7 +10,7 @@ class Clock:
 
     def __init__(self):
         self.last, self.begun, self.spent, self.frames = 0.0, time.monotonic(), 0.0, 0
-        self.share, self.frames_per_s = 0.0, 0.0
+        self.share, self.frames_per_s, self.answer_ms = 0.0, 0.0, 0.0
 
     def due(self, speed: float) -> bool:
         """Whether a step may begin: at most `speed` a second, 0 for no limit."""
@@ -26,6 +26,10 @@ class Clock:
         self.last, self.spent = time.monotonic(), self.spent + seconds
         self.turn()
 
+    def granted(self, asked: float) -> None:
+        """A wish that was put on the desk at that moment has been granted."""
+        self.answer_ms = 1e3 * (time.monotonic() - asked)
+
     def drew(self) -> None:
         """A frame was drawn."""
         self.frames += 1
@@ -39,4 +43,5 @@ class Clock:
             self.begun, self.spent, self.frames = time.monotonic(), 0.0, 0
 
     def figures(self) -> dict:
-        return {"share": self.share, "frames_per_s": self.frames_per_s}
+        """share of the time in steps; frames drawn a second; milliseconds until the last wish was granted."""
+        return {"share": self.share, "frames_per_s": self.frames_per_s, "answer_ms": self.answer_ms}

@@ -28,7 +28,7 @@ class Desk:
     # what the main thread does
 
     def take(self) -> list[dict]:
-        """The wishes, in the order in which they came; each with its "id"."""
+        """The wishes, in the order in which they came; each with its "id" and when it came, "at"."""
         with self.changed:
             return self.wishes.take()
 

@@ -25,6 +25,7 @@ from .shown import Shown
 
 WATCH, SMOOTH = 10.0, 15.0  # seconds that a scene should last at least; steps a second below which it jerks
 REST = 0.2  # seconds a run with nothing to do sleeps before it looks at Ctrl-C again
+ANSWER = 0.003  # seconds the server gets to answer before kernels hold Python's lock again
 QUIET = 0.4  # seconds after a slider's last move before other pages hear of it
 
 
@@ -102,8 +103,11 @@ class Session:
 
     def round(self) -> None:
         """Wishes, a step, a look."""
-        for wish in self.desk.take():
+        wishes = self.desk.take()
+        for wish in wishes:
             self.grant(wish)
+        if wishes:
+            time.sleep(ANSWER)
         if self.slid and time.monotonic() - self.slid > QUIET:
             self.changed()
             self.shown.stale = True  # a run at rest must say so, too
@@ -158,6 +162,7 @@ class Session:
             traceback.print_exc()
             self.say(f"{type(error).__name__}: {one_line(error)}", "error")
         self.applied = max(self.applied, wish["id"])
+        self.clock.granted(wish["at"])
         self.busy = None
         self.shown.touched()
 

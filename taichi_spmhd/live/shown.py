@@ -6,8 +6,9 @@ import time
 from ..errors import InputError
 from .readings import COLUMNS
 
-FRAME, STATE, ROW = 1 / 30, 0.05, 0.2  # seconds between two frames, states and rows, at the least
-EFFORT = 0.1  # share of the time that rows may take
+RARELY = 1.0  # seconds between two rows, at the most
+FRAME, STATE, ROW = 1 / 30, 0.1, 0.25  # seconds between two frames, states and rows, at the least
+EFFORT = 0.06  # share of the time that rows may take
 LOOKING, SMOOTH = 0.35, 1 / 20  # share of the time that frames may take; seconds between two that look smooth
 FILM_FRAMES = 100  # of a film that covers the scene's whole time
 MOST_FILES = 50
@@ -65,7 +66,8 @@ class Shown:
             return
         clock = time.monotonic()
         self.desk.add_rows([self.row(panel) for panel in self.session.panels])
-        self.due["row"] = max(self.due["row"], clock + (time.monotonic() - clock) / EFFORT)
+        wait = (time.monotonic() - clock) / EFFORT  # the first row compiles: that must not keep the next one away
+        self.due["row"] = max(self.due["row"], clock + min(wait, RARELY))
 
     def row(self, panel) -> list:
         """The readings of one panel; numbers that are none become null."""

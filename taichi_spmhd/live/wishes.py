@@ -1,5 +1,7 @@
 """Wishes that wait for the main thread: in order, few, and each worth granting."""
 
+import time
+
 MOST, MOST_PUSHES = 256, 64
 SAME = {"number": ("do", "panel", "part", "name"), "draw": ("do",), "speed": ("do",)}  # a later one of these replaces
 VOID = {"member": ("axis", "limits"), "axis": ("limits",), "log": ("limits",)}  # what a "draw" sets back by itself
@@ -25,7 +27,7 @@ class Wishes:
             raise Full
         older = self.waiting.pop(before) if before is not None else {}
         self.given += 1
-        self.waiting.append({**merged(older, wish), "id": self.given})
+        self.waiting.append({**merged(older, wish), "id": self.given, "at": time.monotonic()})
         return self.given
 
     def take(self) -> list[dict]:

@@ -10,7 +10,7 @@ import { short } from "./ticks.js";
 import { word } from "./words.js";
 
 const SHARPEST = 1.5; // pixels of the picture a pixel of the page: more costs time and shows little
-const LARGEST = { particles: 1200, nearest: 800, sph: 400 }; // of the longer side: smooth pictures cost by the pixel
+const LARGEST = { particles: 1200, nearest: 800, sph: 800 }; // of the longer side: smooth pictures cost by the pixel
 
 /** The panel number k; elements are made once and reused. */
 export class Panel {
