@@ -84,7 +84,7 @@ def test_beyond_its_connections_the_server_says_503_and_recovers(client):
 
 
 def test_who_is_refused_while_still_sending_reads_why(client):
-    body = b"x" * 3_000_000  # more than the sockets hold: without reading on, the answer would be lost with a reset
+    body = b"x" * 20_000_000  # more than the sockets hold: without reading on, the answer is lost with a reset
     status, _, answer = client.request("POST", "do", body, {"Content-Type": "application/json"})
     assert status == 413 and "16384" in json.loads(answer)["error"]
 
@@ -104,10 +104,10 @@ def test_a_port_that_is_taken_is_one_clear_line(client):
 def test_the_port_of_a_run_that_just_ended_is_free(desk):
     with front.served(desk) as client:
         port = client.port
-        line = HTTPConnection("127.0.0.1", port, timeout=10)
-        line.request("GET", f"/{client.token}/setup")
-        line.getresponse().read()  # kept open: the server is the one who hangs up, and its end lingers
-    line.close()
+        with opened(client) as line:
+            line.sendall(raw("GET", "/wrong"))
+            while line.recv(65536):  # the server hangs up first: its end lingers for a minute
+                pass
     with front.served(front.desk(), port=port) as again:
         assert again.port == port and again.state()["seq"] == 1
 
@@ -146,6 +146,13 @@ def test_stopping_lets_go_who_waits(desk):
 @pytest.mark.timeout(60)
 def test_a_server_that_never_began_can_be_stopped(desk):
     Server(desk).stop()
+
+
+def test_what_cannot_be_written_to_is_seen_at_the_door(tmp_path, capsys):
+    taken = tmp_path / "taken"
+    taken.write_text("a file")
+    assert spmhd("live", "alfven_tensile", "--no-browser", "--out", str(taken)) == 2
+    assert "is a file; give a folder" in capsys.readouterr().err
 
 
 @pytest.mark.timeout(60)

@@ -29,6 +29,7 @@ def main(args) -> int:
     from ..live.desk import Desk
     from ..live.server import Server
     from ..live.session import Session
+    from ..outputs.folder import Folder
     from ..outputs.signals import Stop
     from ..outputs.words import say
 
@@ -36,11 +37,11 @@ def main(args) -> int:
         raise InputError(f"--port {args.port}: give a number from 0 (a free one) to 65535")
     path = find(args.scene)
     chosen(args, path)
+    out = Folder(args.out or Path("out") / f"{path.stem}_live").root
     desk = Desk()
     server = Server(desk, args.host, args.port)
     with Stop() as stop:
         try:
-            out = Path(args.out or Path("out") / f"{path.stem}_live")
             session = Session(path, assignments(args.set), args.variant, start(args), out, desk)
             server.start()
             tell(server, args, say)
