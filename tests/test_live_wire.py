@@ -83,6 +83,21 @@ def test_beyond_its_connections_the_server_says_503_and_recovers(client):
     assert client.request("GET", "setup")[0] == 200
 
 
+def test_a_page_that_is_reloaded_often_finds_its_place(client, desk):
+    # a run at rest: nothing else ends a long poll before its ten seconds
+    for _ in range(2):
+        lines = [opened(client) for _ in range(server.MOST_CONNECTIONS - 2)]
+        for k, line in enumerate(lines):
+            frame = "frame?panel=0&after=9&width=100&height=100"
+            line.sendall(raw("GET", f"/{client.token}/{frame if k % 2 else 'state?after=9&row=0'}"))
+        while sum(desk.frames.waiting.values()) < len(lines) // 2:
+            time.sleep(0.01)
+        for line in lines:
+            line.close()
+        time.sleep(1.2)  # twice as long as it takes to see that nobody is there
+        assert client.request("GET", "setup")[0] == 200
+
+
 def test_who_is_refused_while_still_sending_reads_why(client):
     body = b"x" * 20_000_000  # more than the sockets hold: without reading on, the answer is lost with a reset
     status, _, answer = client.request("POST", "do", body, {"Content-Type": "application/json"})

@@ -9,7 +9,7 @@ from ..errors import InputError
 from . import doors
 from .actions import checked
 from .doors import Refused
-from .wire import Incoming
+from .wire import Incoming, gone
 from .wishes import Full
 
 PATIENCE, ANSWER = 10.0, 2.0  # seconds a long poll waits, and a question
@@ -88,11 +88,11 @@ class Answers(BaseHTTPRequestHandler):
         self.send_json(200, self.server.desk.setup)
 
     def read_state(self, after: int, row: int) -> None:
-        self.send_json(200, self.server.desk.state_after(after, row, PATIENCE))
+        self.send_json(200, self.server.desk.state_after(after, row, PATIENCE, self.gone))
 
     def read_frame(self, panel: int, after: int, width: int, height: int) -> None:
         self.there(panel)
-        frame = self.server.desk.frame_after(panel, (width, height), after, PATIENCE)
+        frame = self.server.desk.frame_after(panel, (width, height), after, PATIENCE, self.gone)
         if frame is None:
             raise Refused(503, "no frame yet")
         self.send(200, "image/jpeg", frame.jpeg(), {"X-Frame": str(frame.number)})
@@ -103,6 +103,10 @@ class Answers(BaseHTTPRequestHandler):
         if found is None:
             raise Refused(503, "no answer in time")
         self.send_json(200, found)
+
+    def gone(self) -> bool:
+        """A page that is closed leaves its place to others."""
+        return gone(self.connection)
 
     def there(self, panel: int) -> None:
         """Nobody waits for a panel that does not exist."""

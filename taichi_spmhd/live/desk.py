@@ -13,6 +13,12 @@ from .plots import Plots
 from .wishes import Full, Wishes
 
 MOST_QUESTIONS = 32
+GLANCE = 0.5  # seconds between two looks whether the one who waits is still there
+
+
+def patient() -> bool:
+    """Whoever never leaves."""
+    return False
 
 
 class Desk:
@@ -115,20 +121,28 @@ class Desk:
             if asked in self.questions_asked:
                 self.questions_asked.remove(asked)
 
-    def state_after(self, seq: int, row: int, seconds: float) -> dict:
+    def state_after(self, seq: int, row: int, seconds: float, gone: Callable = patient) -> dict:
         """The state once its number is above `seq`, or when the time is over; with the plots' rows from `row` on."""
         with self.changed:
-            self.changed.wait_for(lambda: self.seq > seq or self.closed, seconds)
+            self.until(lambda: self.seq > seq, seconds, gone)
             return {**self.state, "rows": self.plots.since(row)}
 
-    def frame_after(self, panel: int, size: tuple[int, int], number: int, seconds: float) -> Frame | None:
+    def frame_after(
+        self, panel: int, size: tuple[int, int], number: int, seconds: float, gone: Callable = patient
+    ) -> Frame | None:
         """The frame once its number is above `number`, else the last one of this size; None if there is none."""
         with self.changed:
             with self.frames.look(panel, size):
                 if self.frames.number(panel, size) <= number:
                     self.stir()
-                    self.changed.wait_for(lambda: self.frames.number(panel, size) > number or self.closed, seconds)
+                    self.until(lambda: self.frames.number(panel, size) > number, seconds, gone)
             return self.frames.get(panel, size)
+
+    def until(self, true: Callable, seconds: float, gone: Callable) -> None:
+        """Sleep until it is true, the time is over, or nobody waits for it any more."""
+        end = time.monotonic() + seconds
+        while not (true() or self.closed or gone()) and (left := end - time.monotonic()) > 0:
+            self.changed.wait(min(left, GLANCE))
 
     def stir(self) -> None:
         """Wake the main thread, if it sleeps."""

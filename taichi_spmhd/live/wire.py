@@ -33,6 +33,17 @@ class Incoming(io.RawIOBase):
         return self.line.recv_into(room)
 
 
+def gone(line: socket.socket) -> bool:
+    """Whether the other side has hung up, as a page does that is closed or wants another size."""
+    try:
+        line.setblocking(False)
+        return not line.recv(1, socket.MSG_PEEK)
+    except BlockingIOError:
+        return False
+    except OSError:
+        return True
+
+
 def hang_up(line: socket.socket) -> None:
     """End our half, then read what still comes, briefly: closing on unread bytes would take the last answer back."""
     with suppress(OSError):
