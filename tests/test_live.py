@@ -193,6 +193,9 @@ def test_a_run_that_goes_wrong_says_so_keeps_the_picture_and_begins_again(tmp_pa
         assert state["panels"][0]["failed"] is None and state["panels"][0]["steps"] == 1
         client.do(do="choose", variant="calm")
         assert client.do(do="step")["panels"][0]["steps"] == 1
+        client.do(do="choose", scene="sound_wave", set={"nx": 16})
+        client.do(do="choose", scene="bang")  # the file of the command can be chosen again
+        assert client.get("setup")["scene"] == "bang" and client.get("setup")["panels"][0]["variant"] == "bang"
     assert not (tmp_path / "out").exists()  # nothing was recorded, so nothing is on the disk
 
 

@@ -13,7 +13,7 @@ from .wire import Incoming, gone
 from .wishes import Full
 
 PATIENCE, ANSWER = 10.0, 2.0  # seconds a long poll waits, and a question
-SLOWEST = 15.0  # seconds a request may take to arrive, and an answer to leave
+SLOWEST, LEAVING = 5.0, 15.0  # seconds a request may take to arrive, and an answer to leave
 HEADERS = {
     "Cache-Control": "no-store",
     "X-Content-Type-Options": "nosniff",
@@ -138,7 +138,7 @@ class Answers(BaseHTTPRequestHandler):
         headers = {"Content-Type": kind, "Content-Length": len(content), **HEADERS, **(more or {})}
         lines = [f"HTTP/1.1 {code} {HTTPStatus(code).phrase}", *(f"{key}: {text}" for key, text in headers.items())]
         head = ("\r\n".join(lines) + "\r\n\r\n").encode("latin-1")
-        self.connection.settimeout(SLOWEST)
+        self.connection.settimeout(LEAVING)
         self.wfile.write(head if self.command == "HEAD" else head + content)
 
     def log_message(self, *_) -> None:

@@ -56,7 +56,7 @@ def choose(session, wish: dict) -> None:
     session.compiling()
     panel = session.panels[wish.get("panel", 0)]
     other = wish.get("scene", session.scene_name) != session.scene_name
-    path = library.find(wish["scene"]) if other else session.path
+    path = session.find(wish["scene"]) if other else session.path
     values = library.parameters_of(path, **{**({} if other else session.parameters), **wish.get("set", {})})
     if other or values != session.parameters:
         session.open(path, values, wish.get("variant", None if other else panel.variant))
@@ -147,7 +147,13 @@ def particle(session, question: dict) -> dict | None:
         if sim.scene.boundary.periodic[a]:
             apart[:, a] -= box.size[a] * np.round(apart[:, a] / box.size[a])
     k = int(np.argmin((apart**2).sum(axis=1)))
-    return {"id": k, "members": {name: np.round(values[k], 9).tolist() for name, values in columns.items()}}
+    return {"id": k, "members": {name: plain(values[k]) for name, values in columns.items()}}
+
+
+def plain(value):
+    """A number or a list of numbers for JSON; None for what is not finite."""
+    rounded = np.round(np.asarray(value, float), 9)
+    return np.where(np.isfinite(rounded), rounded, None).tolist()
 
 
 RECORDS = {"png": png, "film": film, "stop": stop, "state": state, "scene": scene}

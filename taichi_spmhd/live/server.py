@@ -15,7 +15,7 @@ from .answers import Answers
 from .desk import Desk
 from .wire import hang_up, turn_away
 
-MOST_CONNECTIONS = 32
+MOST_CONNECTIONS = 64
 
 
 class Server(ThreadingHTTPServer):

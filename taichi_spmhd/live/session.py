@@ -10,7 +10,7 @@ from contextlib import ExitStack
 from pathlib import Path
 
 from ..errors import InputError, RunError
-from ..library import load_scene, parameters_of, sight
+from ..library import find, load_scene, parameters_of, sight
 from ..outputs.signals import Stop
 from ..outputs.words import one_line
 from ..picture import Picture
@@ -38,7 +38,7 @@ class Session:
         self.message, self.busy, self.arrived = None, None, False
         self.slid = 0.0  # when a slider last moved, until the page has been told
         self.panels: list[Panel] = []
-        self.clock, self.shown = Clock(), Shown(self)
+        self.clock, self.shown, self.home = Clock(), Shown(self), path
         self.open(path, given, variant)
 
     @property
@@ -58,6 +58,10 @@ class Session:
     @property
     def title(self) -> str:
         return sight(self.path).rstrip(".")
+
+    def find(self, name: str) -> Path:
+        """The scene file of this name: the one the command was given, or one that ships."""
+        return self.home if name == self.home.stem else find(name)
 
     @property
     def scene_name(self) -> str:

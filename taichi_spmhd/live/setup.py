@@ -22,7 +22,7 @@ def setup(session) -> dict:
     scene = session.first.scene
     return {
         "version": session.version,
-        **texts(session.path),
+        **texts(session.path, session.home),
         "scene": session.scene_name,
         "parameters": described_parameters(session),
         "kernels": KERNELS,
@@ -39,12 +39,13 @@ def setup(session) -> dict:
 
 
 @lru_cache(maxsize=4)
-def texts(path) -> dict:
-    """What the scene files say of themselves."""
+def texts(path, home) -> dict:
+    """What the scene files say of themselves: this one, that of the command, and those that ship."""
+    there = {home.stem: library.sight(home)} | {entry.name: entry.sight for entry in library.listing()}
     return {
         "title": library.sight(path),
         "about": library.docstring(path),
-        "scenes": [{"name": entry.name, "sight": entry.sight} for entry in library.listing()],
+        "scenes": [{"name": name, "sight": sight} for name, sight in there.items()],
     }
 
 
