@@ -242,6 +242,9 @@ def test_a_run_that_goes_wrong_says_so_keeps_its_picture_and_offers_reset(page):
         "const done = arguments[0]; import('./api.js').then((m) => m.send({do: 'poke', panel: 0, kind: 'push', x: 0.5,"
         " y: 1.0, dx: 1e6, dy: 0, radius: 0.2})).then(done)"
     )
+    page.driver.execute_async_script(  # it takes some 340 steps to give up: 23 s at the 15 a second it begins with
+        "const done = arguments[0]; import('./api.js').then((m) => m.send({do: 'speed', value: 0})).then(done)"
+    )
     page.click("play")
     page.until("live.state.panels[0].failed")
     page.until("document.getElementById('message').innerText.includes('went wrong')")

@@ -29,6 +29,7 @@ def main(args) -> int:
     from ..live.desk import Desk
     from ..live.server import Server
     from ..live.session import Session
+    from ..outputs.folder import Folder
     from ..outputs.signals import Stop
     from ..outputs.words import say
 
@@ -36,11 +37,11 @@ def main(args) -> int:
         raise InputError(f"--port {args.port}: give a number from 0 (a free one) to 65535")
     path = find(args.scene)
     chosen(args, path)
+    out = Folder(args.out or Path("out") / f"{path.stem}_live").root
     desk = Desk()
     server = Server(desk, args.host, args.port)
     with Stop() as stop:
         try:
-            out = Path(args.out or Path("out") / f"{path.stem}_live")
             session = Session(path, assignments(args.set), args.variant, start(args), out, desk)
             server.start()
             tell(server, args, say)
@@ -63,16 +64,18 @@ def chosen(args, path) -> None:
 def tell(server, args, say) -> None:
     """The address, and the browser."""
     say(f"spmhd live: {server.url}   (Ctrl-C ends it)")
-    if args.host not in ("127.0.0.1", "::1", "localhost"):
+    if not server.address.is_loopback:
         say("spmhd live: whoever has this address can steer the run, over plain HTTP; others cannot")
     if not args.no_browser:
         threading.Thread(target=browse, args=(server.url,), daemon=True).start()
 
 
 def browse(url: str) -> None:
-    """Open the browser; without one the printed address is enough."""
-    import webbrowser
+    """Open the browser, in a process of its own without our terminal: a text browser would take it, others chatter."""
+    import subprocess
+    import sys
     from contextlib import suppress
 
-    with suppress(Exception):
-        webbrowser.open(url)
+    with suppress(OSError):
+        quiet = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.DEVNULL)
+        subprocess.run([sys.executable, "-m", "webbrowser", url], **quiet, start_new_session=True, check=False)

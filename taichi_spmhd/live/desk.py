@@ -10,12 +10,15 @@ from collections.abc import Callable
 
 from .frames import Frame, Frames
 from .plots import Plots
+from .wishes import Full, Wishes
 
-MOST_WISHES, MOST_QUESTIONS = 256, 32
+MOST_QUESTIONS = 32
+GLANCE = 0.5  # seconds between two looks whether the one who waits is still there
 
 
-class Full(Exception):
-    """More wishes or questions than the run can grant."""
+def patient() -> bool:
+    """Whoever never leaves."""
+    return False
 
 
 class Desk:
@@ -23,7 +26,7 @@ class Desk:
 
     def __init__(self):
         self.changed = threading.Condition()
-        self.wishes, self.questions_asked, self.given = [], [], 0
+        self.wishes, self.questions_asked = Wishes(), []
         self.setup, self.state, self.seq = {}, {}, 0
         self.frames, self.plots = Frames(), Plots()
         self.stirred, self.closed = False, False
@@ -33,8 +36,7 @@ class Desk:
     def take(self) -> list[dict]:
         """The wishes, in the order in which they came; each with its "id" and when it came, "at"."""
         with self.changed:
-            wishes, self.wishes = self.wishes, []
-            return wishes
+            return self.wishes.take()
 
     def questions(self) -> list[tuple[dict, Callable]]:
         """(question, answer) for each that waits: call answer(whatever)."""
@@ -91,17 +93,9 @@ class Desk:
     def put(self, wish: dict) -> int:
         """A wish for the main thread; returns its number. Raises Full."""
         with self.changed:
-            self.given += 1
-            wish = {**wish, "id": self.given, "at": time.monotonic()}
-            before = next((k for k, other in enumerate(self.wishes) if replaces(wish, other)), None)
-            if before is not None:
-                self.wishes[before] = {**self.wishes[before], **wish}
-            elif len(self.wishes) < MOST_WISHES:
-                self.wishes.append(wish)
-            else:
-                raise Full
+            number = self.wishes.put(wish)
             self.stir()
-            return self.given
+            return number
 
     def ask(self, question: dict, seconds: float):
         """The main thread's answer, or None if none came in time. Raises Full."""
@@ -111,28 +105,44 @@ class Desk:
             answer.append(value)
             done.set()
 
+        asked = (question, reply)
         with self.changed:
             if len(self.questions_asked) >= MOST_QUESTIONS:
                 raise Full
-            self.questions_asked.append((question, reply))
+            self.questions_asked.append(asked)
             self.stir()
-        done.wait(seconds)
+        if not done.wait(seconds):
+            self.withdraw(asked)
         return answer[0] if answer else None
 
-    def state_after(self, seq: int, row: int, seconds: float) -> dict:
+    def withdraw(self, asked: tuple) -> None:
+        """Nobody waits for this answer any more."""
+        with self.changed:
+            if asked in self.questions_asked:
+                self.questions_asked.remove(asked)
+
+    def state_after(self, seq: int, row: int, seconds: float, gone: Callable = patient) -> dict:
         """The state once its number is above `seq`, or when the time is over; with the plots' rows from `row` on."""
         with self.changed:
-            self.changed.wait_for(lambda: self.seq > seq or self.closed, seconds)
+            self.until(lambda: self.seq > seq, seconds, gone)
             return {**self.state, "rows": self.plots.since(row)}
 
-    def frame_after(self, panel: int, size: tuple[int, int], number: int, seconds: float) -> Frame | None:
+    def frame_after(
+        self, panel: int, size: tuple[int, int], number: int, seconds: float, gone: Callable = patient
+    ) -> Frame | None:
         """The frame once its number is above `number`, else the last one of this size; None if there is none."""
         with self.changed:
             with self.frames.look(panel, size):
                 if self.frames.number(panel, size) <= number:
                     self.stir()
-                    self.changed.wait_for(lambda: self.frames.number(panel, size) > number or self.closed, seconds)
+                    self.until(lambda: self.frames.number(panel, size) > number, seconds, gone)
             return self.frames.get(panel, size)
+
+    def until(self, true: Callable, seconds: float, gone: Callable) -> None:
+        """Sleep until it is true, the time is over, or nobody waits for it any more."""
+        end = time.monotonic() + seconds
+        while not (true() or self.closed or gone()) and (left := end - time.monotonic()) > 0:
+            self.changed.wait(min(left, GLANCE))
 
     def stir(self) -> None:
         """Wake the main thread, if it sleeps."""
@@ -144,9 +154,3 @@ class Desk:
         with self.changed:
             self.closed = True
             self.changed.notify_all()
-
-
-def replaces(wish: dict, other: dict) -> bool:
-    """Whether a wish makes one that still waits pointless: a slider dragged on, another colour limit."""
-    keys = {"number": ("do", "panel", "part", "name"), "draw": ("do",), "speed": ("do",)}.get(wish["do"])
-    return keys is not None and all(wish.get(key) == other.get(key) for key in keys)
