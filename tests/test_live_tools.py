@@ -7,6 +7,7 @@ import pytest
 
 from taichi_spmhd import Heun, Simulation, load_scene
 from taichi_spmhd.diagnostics import div_B
+from taichi_spmhd.diagnostics.field import differences
 from taichi_spmhd.energy import Total
 from taichi_spmhd.eos import Isothermal
 from taichi_spmhd.errors import InputError
@@ -31,6 +32,13 @@ def vortex(request):
     with Simulation(variations()[request.param], spare=()) as sim:
         for _ in range(4):
             sim.step()
+        yield sim
+
+
+@pytest.fixture
+def wave():
+    """A circularly polarised wave, |v| = 0.1 v_A, at its start."""
+    with Simulation(load_scene("alfven_tensile", nx=24)["xi = 1/2"], spare=()) as sim:
         yield sim
 
 
@@ -83,6 +91,13 @@ def test_a_field_pulse_has_no_divergence_but_that_of_the_sum(vortex):
     assert np.isfinite(vortex["v"]).all()
 
 
+def test_a_brush_wider_than_the_box_leaves_no_kink_where_its_images_meet(wave):
+    before = differences(wave)["div_B"]
+    pokes.field(wave, PLACE, 1.0, 1.0)
+    # div B of the pulse alone, on a lattice that is nearly perfect; B_rms = 1. A radius that is not cut: 2e-2
+    assert np.abs(wave["h"] * (differences(wave)["div_B"] - before)).max() < 1e-3  # measured 1e-4
+
+
 def test_what_cannot_be_poked_is_not_offered():
     (scene,) = load_scene("sound_wave", nx=16).values()
     with Simulation(scene, spare=()) as sim:
@@ -104,35 +119,59 @@ def test_a_row_has_a_number_for_every_column_or_none(vortex):
     assert readings.last["smallest_gap"] <= row["mean_gap"] and readings.growth() is None
 
 
-def test_growth_is_that_of_linear_theory():
-    """Noise on a lattice at beta = 0.1, xi = 0 grows by 1.24 v_A/dx (docs/physics.md: the fastest waves along B).
-
-    The rate over the last rows before it is no longer small; all wave vectors grow at once, so the mean rate comes
-    from below.
-    """
-    scene = next(iter(load_scene("uniform_field", nx=24, noise=1e-5, duration=12.0).values()))
-    rates, readings = [], Readings()
+def told(scene) -> list[float]:
+    """The growth rates that a live run tells, step by step."""
+    readings, rates = Readings(), []
     with Simulation(scene, spare=()) as sim:
         sim.begin()
         while sim.time < scene.t_end:
             sim.step()
-            if sim.steps % 3 == 0:
-                readings.row(sim, 0.0, 0.0)
-                rates.append(readings.growth())
-    assert readings.last["noise"] > 1e-3
-    found = [rate for rate in rates if rate is not None]
-    assert max(found[-5:]) == pytest.approx(1.24, rel=0.15)
+            readings.listen(sim)
+            rates.append(readings.growth())
+    return [rate for rate in rates if rate is not None]
 
 
-def test_growth_wants_a_rise_that_lasts():
-    growth = Growth()
-    for k in range(12):
-        growth.add(0.1 * k, 1e-6 * np.exp(0.5 * k))
-    assert growth.rate() == pytest.approx(5.0)
+@pytest.mark.parametrize("noise", [1e-5, 1e-3])
+def test_growth_is_that_of_linear_theory(noise):
+    # tests/test_tensile.py: the fastest mode grows by 1.29 v_A/dx at beta = 0.1, dx along the rows; by 1.20 in mean
+    # spacings. All modes grow at once, the fastest have to win first: measured 1.16 and, from the scene's own noise,
+    # which leaves four powers of e, 1.11
+    (scene,) = load_scene("uniform_field", nx=24, noise=noise, duration=12.0).values()
+    rates = told(scene)
+    assert rates[-1] == pytest.approx(1.20, rel=0.15)
+    # told while it lasts, and as long again when it is over: a second at least of 15 steps. Measured 34 and 32 steps
+    assert len(rates) > 15
+
+
+def test_with_xi_half_nothing_grows():
+    (scene,) = load_scene("uniform_field", nx=24, xi=0.5, duration=6.0).values()
+    assert told(scene) == []
+
+
+def test_a_smooth_wave_is_no_noise(wave):
+    readings = Readings()
+    readings.row(wave, 0.0, 0.0)
+    # what differs from the neighbours' mean twice over is of order (k h)^4: measured 3.3e-4. Of one mean 5.5e-3, which
+    # leaves three powers of e before clumps
+    assert readings.last["noise"] < 1e-3
+
+
+def test_growth_wants_a_rise_that_lasts_and_is_told_while_it_can_be_read():
+    def rising(last: int) -> Growth:
+        growth = Growth()
+        for k in range(last):
+            growth.add(0.1 * k, 1e-6 * np.exp(0.5 * k), pace=2.0)
+        return growth
+
+    growth = rising(12)
+    assert growth.rate() == pytest.approx(5.0 / 2.0)
     growth.add(1.3, 1e-6)
-    assert growth.rate() is None
+    assert growth.rate() is None  # it fell
+    growth = rising(12)  # it lasted 1.1
     growth.add(1.4, 0.2)  # no longer small
-    assert growth.rate() is None and growth.times == []
+    assert growth.rate() == pytest.approx(2.5) and growth.times == []
+    growth.add(2.3, 0.3)
+    assert growth.rate() is None
 
 
 def test_records_never_write_over_a_file_and_only_into_their_folder(tmp_path, vortex):

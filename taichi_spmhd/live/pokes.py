@@ -1,12 +1,14 @@
 """Pokes: a push, a pulse of pressure or of field around a place, added to the state of a live run.
 
-All weigh with f(q) = (1 - q^2)^4 within a radius, q = r/radius: smooth, and nothing outside. The ledger is told what
-they give, so a poke is no drift. Done in numpy: the same bits for any number of threads.
+All weigh with f(q) = (1 - q^2)^4 within a radius, q = r/radius: smooth, and nothing outside. The radius ends at half
+a period, or f would have a kink where the images meet. In a strip, drawn as value against x, r is the distance along x.
+The ledger is told what they give, so a poke is no drift. Done in numpy: the same bits for any number of threads.
 """
 
 import numpy as np
 
 from ..recast import Books, again
+from ..render.layout import is_profile
 
 LEAST = -0.99  # a pulse takes at most this share of the pressure
 
@@ -18,27 +20,38 @@ def allowed(sim) -> list[str]:
     return kinds + (["field"] if {"b", "B"} & set(sim.particles.names) and "B" in members else [])
 
 
+def axes(sim) -> int:
+    """How many axes a poke sees."""
+    return 1 if is_profile(sim.scene.box) else sim.dim
+
+
+def periods(sim) -> list[float]:
+    """The period of each of them, 0 where there is none."""
+    boundary, box = sim.scene.boundary, sim.scene.box
+    return [box.size[a] if boundary.periodic[a] else 0.0 for a in range(axes(sim))]
+
+
 class Touch:
     """The members of all particles in memory order, to be changed and put back."""
 
     def __init__(self, sim, place, radius: float):
         sim.begin()
         self.books = Books.of(sim)
-        self.sim, self.radius = sim, radius
+        self.sim, self.radius = sim, min([radius, *(0.5 * size for size in periods(sim) if size)])
         self.table, self.ids = sim.particles.table()
         self.columns = {name: slice(first, first + kind) for name, kind, first in sim.particles.layout}
         self.d = self.apart(np.asarray(place, float))
-        q2 = np.minimum((self.d**2).sum(axis=1) / radius**2, 1.0)
+        q2 = np.minimum((self.d**2).sum(axis=1) / self.radius**2, 1.0)
         free = 1.0 - self.table[:, self.columns["held"]].ravel() if "held" in self.columns else 1.0
-        self.f, self.slope = (1 - q2) ** 4 * free, -8 * (1 - q2) ** 3 * free / radius**2  # f, and f'(r)/r
+        self.f, self.slope = (1 - q2) ** 4 * free, -8 * (1 - q2) ** 3 * free / self.radius**2  # f, and f'(r)/r
 
     def apart(self, place: np.ndarray) -> np.ndarray:
         """x - place (N, d), to the nearest image."""
         d = self["x"].astype(float) - place
-        for a in range(d.shape[1]):
-            if self.sim.scene.boundary.periodic[a]:
-                size = self.sim.scene.box.size[a]
+        for a, size in enumerate(periods(self.sim)):
+            if size:
                 d[:, a] -= size * np.round(d[:, a] / size)
+        d[:, axes(self.sim) :] = 0.0
         return d
 
     def __getitem__(self, name: str) -> np.ndarray:
@@ -87,7 +100,7 @@ def field(sim, place, strength: float, radius: float) -> None:
     touch = Touch(sim, place, radius)
     rho, B = touch["rho"], touch["B"].astype(float)
     B0 = np.sqrt((B**2).sum(axis=1).mean()) or np.sqrt(2 * touch["P"].mean())
-    grad = 0.5 * strength * B0 * radius * touch.slope[:, None] * touch.d
+    grad = 0.5 * strength * B0 * touch.radius * touch.slope[:, None] * touch.d
     dB = np.zeros_like(B)
     dB[:, 1] = -grad[:, 0]
     if grad.shape[1] > 1:

@@ -1,4 +1,8 @@
-"""Readings: what the live plots show of one simulation, a row a few times a second."""
+"""Readings: what the live plots show of one simulation, a row a few times a second.
+
+The noise is read more often: a lattice is torn up within ten dx/v_A, between a few rows. When depends on the time of
+the scene alone.
+"""
 
 import time
 
@@ -15,6 +19,7 @@ COLUMNS = (
     "t", "ms", "updates", "E_drift", "E_drift_predicted", "p_drift", "p_drift_predicted", "mean_gap", "close_pairs",
     "div_B", "error", "noise",
 )  # fmt: skip
+OFTEN = 0.5  # dx/v_A between two readings of the noise
 RARELY = 20.0  # an error that takes long to find is found again after this many times as long
 
 
@@ -27,7 +32,20 @@ class Readings:
     def clear(self) -> None:
         """The run begins anew."""
         self.last, self.rates = {}, Growth()
-        self.error, self.error_due = None, 0.0
+        self.error, self.error_due, self.noise_due = None, 0.0, -np.inf
+
+    def listen(self, sim) -> None:
+        """After every step: the noise, where it is time for it."""
+        if sim.time >= self.noise_due:
+            columns = sim.columns()
+            self.hear(sim, columns, rows(sim, columns))
+
+    def hear(self, sim, columns: dict, found) -> float:
+        """The noise at present."""
+        shaken, unit = noise(found, columns), pace(sim, columns)
+        self.rates.add(sim.time, shaken, unit)
+        self.noise_due = sim.time + OFTEN / unit
+        return shaken
 
     def row(self, sim, ms: float, updates: float) -> list:
         """The numbers of COLUMNS at present; None where a scene has none.
@@ -38,8 +56,6 @@ class Readings:
         columns = sim.columns()
         found = rows(sim, columns)
         drift = drifts(sim, columns)
-        shaken = noise(found, columns)
-        self.rates.add(sim.time, shaken)
         self.last = {
             "t": sim.time,
             "ms": ms,
@@ -51,9 +67,8 @@ class Readings:
             **gaps(sim, columns, found),
             "div_B": float(div_B(sim, columns).mean()) if "B" in columns else None,
             "error": self.measured(sim, columns),
-            "noise": shaken,
+            "noise": self.hear(sim, columns, found),
         }
-        self.pace = pace(sim, columns)
         return [self.last[name] for name in COLUMNS]
 
     def measured(self, sim, columns: dict) -> float | None:
@@ -67,9 +82,11 @@ class Readings:
         return self.error
 
     def growth(self) -> float | None:
-        """The rate of the noise in v_A/dx with a field, else in c_s/dx; None where it does not grow."""
-        rate = self.rates.rate()
-        return None if rate is None else rate / self.pace
+        """The rate of the noise in v_A/dx with a field, else in c_s/dx; None where it does not grow.
+
+        dx = (m/rho)^(1/d). The spacing along the rows of a hexagonal lattice is 1.075 such dx: a rate per row spacing is 1.075 times this.
+        """
+        return self.rates.rate()
 
 
 def gaps(sim, columns: dict, found) -> dict[str, float]:

@@ -29,6 +29,8 @@ class Shown:
         self.stale = True
         if not self.session.playing:
             self.due["row"] = 0.0
+        for panel in self.session.going:
+            panel.readings.listen(panel.sim)
         self.measure()
         self.shoot()
 
