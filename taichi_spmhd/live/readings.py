@@ -84,7 +84,7 @@ class Readings:
     def growth(self) -> float | None:
         """The rate of the noise in v_A/dx with a field, else in c_s/dx; None where it does not grow.
 
-        dx = (m/rho)^(1/d). The spacing along the rows of a hexagonal lattice is 1.075 such dx: a rate per row spacing is 1.075 times this.
+        dx = (m/rho)^(1/d). Rows of a hexagonal lattice are spaced by 1.075 such dx: per row spacing a rate is larger.
         """
         return self.rates.rate()
 
