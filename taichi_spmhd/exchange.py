@@ -3,7 +3,7 @@
 The ledger's members (leak_v, leak_E) go on: what terms did to momentum and energy is not undone by switching them off.
 """
 
-from .runtime import ti
+from .opening import Opening
 
 
 def exchange(sim, before: tuple) -> None:
@@ -15,7 +15,7 @@ def exchange(sim, before: tuple) -> None:
     empty(sim, {name for name in own - have if not name.startswith("leak")})
     if arriving:
         empty(sim, {name for part in arriving for name in own_only(part, sim.parts)})
-        Arrival(sim.particles, arriving).open()
+        Opening(sim.particles, arriving).open()
 
 
 def own_only(part, parts: tuple) -> set:
@@ -32,26 +32,3 @@ def empty(sim, names: set) -> None:
             if name in names:
                 table[:, first : first + width] = 0.0
         sim.particles.admit(table, ids)
-
-
-@ti.data_oriented
-class Arrival:
-    """Opens the members of parts that join a run on its way."""
-
-    def __init__(self, particles, parts: tuple):
-        self.p, self.parts = particles, tuple(part for part in parts if part.has("open") or part.has("close"))
-
-    @ti.func
-    def apply(self, n, part: ti.template()):
-        for key in ti.static(part.keys):
-            self.p.state.get_member_field(key)[n] = part[key]
-
-    @ti.kernel
-    def open(self):
-        for n in range(self.p.n):
-            for part in ti.static(self.parts):
-                now = ti.Struct(t=0.0, dt=0.0)
-                if ti.static(part.has("open")):
-                    self.apply(n, part.open(self.p.state[n], now))
-                if ti.static(part.has("close")):
-                    self.apply(n, part.close(self.p.state[n], now))

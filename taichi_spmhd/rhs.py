@@ -6,6 +6,7 @@ term that is not listed leaves no instruction.
 
 from .errors import RunError
 from .moment import Moment
+from .opening import Opening
 from .pairs import TINY
 from .runtime import ti
 from .vector import traced
@@ -41,7 +42,7 @@ class RHS:
         self.totals = {**particles.evolved, **{k: v for part in parts for k, v in part.sums.items()}}
         self.lanes, self.looked = pairs.lanes, looked_at(parts, pairs.names)
         self.keys = {hook: self.with_hook(hook) for hook in ("close", "gather", "gathered", "settle")}
-        self.opening = tuple(sorted(parts, key=lambda part: part.rank))
+        self.open = Opening(particles, parts).open
         self.moment = Moment(particles, parts)
         self.extras = tuple(dict.fromkeys(name for part in parts for name in part.weighs))
         self.pair_terms, self.local_terms = self.with_hook("pair"), self.with_hook("local")
@@ -87,17 +88,6 @@ class RHS:
         """Write the members a hook returned."""
         for key in ti.static(part.keys):
             self.p.state.get_member_field(key)[n] = part[key]
-
-    @ti.kernel
-    def open(self):
-        """Evolved members from primitive ones; each part's own members follow, for the parts after it."""
-        for n in range(self.p.n):
-            for part in ti.static(self.opening):
-                now = ti.Struct(t=0.0, dt=0.0)
-                if ti.static(part.has("open")):
-                    self.apply(n, part.open(self.p.state[n], now))
-                if ti.static(part.has("close")):
-                    self.apply(n, part.close(self.p.state[n], now))
 
     @ti.kernel
     def close(self, t: float, dt: float):
