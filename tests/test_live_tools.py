@@ -1,6 +1,7 @@
 """Pokes, readings and records of live runs, against what they should be."""
 
 import time
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -15,6 +16,7 @@ from taichi_spmhd.live import pokes
 from taichi_spmhd.live.growth import Growth
 from taichi_spmhd.live.readings import COLUMNS, Readings
 from taichi_spmhd.live.recorder import Recorder
+from taichi_spmhd.live.shown import Shown
 from taichi_spmhd.recast import Books
 
 PLACE, RADIUS = (0.5, 0.5), 0.25
@@ -195,6 +197,20 @@ def test_a_folder_that_is_a_file_is_one_clear_line(tmp_path):
     with pytest.raises(InputError, match="is a file"):
         Recorder(tmp_path / "out").text("scene", "x")
     assert (tmp_path / "out").read_text() == "mine"
+
+
+def test_a_disk_that_refuses_a_film_on_its_way_does_not_end_the_run():
+    def refuse(sims):
+        raise InputError("cannot write film_001.gif: the disk is full")
+
+    said, sim = [], SimpleNamespace(time=0.5)
+    first = SimpleNamespace(sim=sim, scene=SimpleNamespace(t_end=1.0))
+    session = SimpleNamespace(desk=None, first=first, shots={}, say=lambda *words: said.append(words))
+    session.recorder = SimpleNamespace(shoot=refuse)
+    shown = Shown(session)
+    shown.filming = True
+    shown.shoot()
+    assert said == [("cannot write film_001.gif: the disk is full", "error")] and not shown.filming
 
 
 def test_a_row_is_cheap(vortex):
