@@ -20,7 +20,7 @@ COLUMNS = (
     "div_B", "error", "noise",
 )  # fmt: skip
 OFTEN = 0.5  # dx/v_A between two readings of the noise
-RARELY = 20.0  # an error that takes long to find is found again after this many times as long
+RARELY = 20.0  # what takes long to find (an error, the noise of many particles) is found again after so many times that
 
 
 class Readings:
@@ -32,13 +32,15 @@ class Readings:
     def clear(self) -> None:
         """The run begins anew."""
         self.last, self.rates = {}, Growth()
-        self.error, self.error_due, self.noise_due = None, 0.0, -np.inf
+        self.error, self.error_due, self.noise_due, self.heard = None, 0.0, -np.inf, 0.0
 
     def listen(self, sim) -> None:
         """After every step: the noise, where it is time for it."""
-        if sim.time >= self.noise_due:
+        clock = time.monotonic()
+        if sim.time >= self.noise_due and clock >= self.heard:
             columns = sim.columns()
             self.hear(sim, columns, rows(sim, columns))
+            self.heard = clock + RARELY * (time.monotonic() - clock)
 
     def hear(self, sim, columns: dict, found) -> float:
         """The noise at present."""
