@@ -1,6 +1,7 @@
 """Pokes, readings and records of live runs, against what they should be."""
 
 import time
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -15,6 +16,7 @@ from taichi_spmhd.live import pokes
 from taichi_spmhd.live.growth import Growth
 from taichi_spmhd.live.readings import COLUMNS, Readings
 from taichi_spmhd.live.recorder import Recorder
+from taichi_spmhd.live.shown import Shown
 from taichi_spmhd.recast import Books
 
 PLACE, RADIUS = (0.5, 0.5), 0.25
@@ -133,10 +135,11 @@ def told(scene) -> list[float]:
 
 
 @pytest.mark.parametrize("noise", [1e-5, 1e-3])
-def test_growth_is_that_of_linear_theory(noise):
+def test_growth_is_that_of_linear_theory(noise, monkeypatch):
     # tests/test_tensile.py: the fastest mode grows by 1.29 v_A/dx at beta = 0.1, dx along the rows; by 1.20 in mean
     # spacings. All modes grow at once, the fastest have to win first: measured 1.16 and, from the scene's own noise,
     # which leaves four powers of e, 1.11
+    monkeypatch.setattr("taichi_spmhd.live.readings.RARELY", 0.0)  # at 15 steps a second there is time enough
     (scene,) = load_scene("uniform_field", nx=24, noise=noise, duration=12.0).values()
     rates = told(scene)
     assert rates[-1] == pytest.approx(1.20, rel=0.15)
@@ -144,7 +147,8 @@ def test_growth_is_that_of_linear_theory(noise):
     assert len(rates) > 15
 
 
-def test_with_xi_half_nothing_grows():
+def test_with_xi_half_nothing_grows(monkeypatch):
+    monkeypatch.setattr("taichi_spmhd.live.readings.RARELY", 0.0)
     (scene,) = load_scene("uniform_field", nx=24, xi=0.5, duration=6.0).values()
     assert told(scene) == []
 
@@ -196,6 +200,20 @@ def test_a_folder_that_is_a_file_is_one_clear_line(tmp_path):
     with pytest.raises(InputError, match="is a file"):
         Recorder(tmp_path / "out").text("scene", "x")
     assert (tmp_path / "out").read_text() == "mine"
+
+
+def test_a_disk_that_refuses_a_film_on_its_way_does_not_end_the_run():
+    def refuse(sims):
+        raise InputError("cannot write film_001.gif: the disk is full")
+
+    said, sim = [], SimpleNamespace(time=0.5)
+    first = SimpleNamespace(sim=sim, scene=SimpleNamespace(t_end=1.0))
+    session = SimpleNamespace(desk=None, first=first, shots={}, say=lambda *words: said.append(words))
+    session.recorder = SimpleNamespace(shoot=refuse)
+    shown = Shown(session)
+    shown.filming = True
+    shown.shoot()
+    assert said == [("cannot write film_001.gif: the disk is full", "error")] and not shown.filming
 
 
 def test_a_row_is_cheap(vortex):

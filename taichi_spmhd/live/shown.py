@@ -4,6 +4,7 @@ import math
 import time
 
 from ..errors import InputError
+from ..outputs.words import one_line
 from .readings import COLUMNS
 
 RARELY = 1.0  # seconds between two rows, at the most
@@ -150,8 +151,12 @@ class Shown:
         if not self.filming or (0 <= self.next_shot - now <= session.first.scene.t_end / FILM_FRAMES):
             return
         self.next_shot = now + session.first.scene.t_end / FILM_FRAMES
-        if not session.recorder.shoot(session.shots):
-            self.note(self.end_film())
+        try:
+            if not session.recorder.shoot(session.shots):
+                self.note(self.end_film())
+        except InputError as error:  # nobody asked just now: the run goes on without its film
+            self.filming = False
+            session.say(one_line(error), "error")
 
     def end_film(self) -> list[str]:
         """Write the film; its names."""
