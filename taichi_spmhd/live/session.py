@@ -101,9 +101,9 @@ class Session:
             while not stop.asked:
                 self.round()
         finally:
-            self.recorder.stop()
             for panel in self.panels:
                 panel.close()
+            self.recorder.stop()
 
     def round(self) -> None:
         """Wishes, a step, a look."""
