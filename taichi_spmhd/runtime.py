@@ -5,6 +5,7 @@ import io
 import os
 import sys
 
+from .cache import LARGEST, free
 from .errors import InputError
 from .tracing import remember
 
@@ -82,11 +83,13 @@ def init(arch: str = "auto", precision: str = "f64", threads: int | None = None)
 
 def _start(wanted: dict) -> None:
     real = ti.f64 if wanted["precision"] == "f64" else ti.f32
+    free(ti.lang.impl.default_cfg().offline_cache_file_path)
     ti.init(
         arch=getattr(ti, wanted["arch"]),
         default_fp=real,
         cpu_max_num_threads=wanted["threads"],
         offline_cache=True,
+        offline_cache_max_size_of_files=LARGEST,
         fast_math=True,
         log_level=ti.ERROR,
         random_seed=0,
