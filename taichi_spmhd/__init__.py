@@ -27,6 +27,7 @@ try:
     from .scene import Scene
     from .simulation import Simulation
     from .stepper import SSPRK3, Heun, LeapfrogKDK
+    from .study import Anchor, Study
     from .terms import Choice, Part, Term
 except InputError as error:  # Taichi cannot be imported: said, in one line, by whatever needs it
     _missing = str(error)
@@ -45,6 +46,7 @@ except PackageNotFoundError:  # run from a checkout that is not installed
 __all__ = [
     "SSPRK3",
     "Adiabatic",
+    "Anchor",
     "Boundary",
     "Box",
     "Choice",
@@ -65,6 +67,7 @@ __all__ = [
     "RunError",
     "Scene",
     "Simulation",
+    "Study",
     "SumMass",
     "SumVolume",
     "Term",

@@ -15,7 +15,7 @@ def errors(sim, columns: dict | None = None) -> dict[str, float]:
 def exact_errors(sim, columns: dict | None = None) -> dict[str, float]:
     """Normalised L1 at the particles, mean|f - exact| / mean|exact|, by member; {} for a scene without a solution.
 
-    Vectors give one entry a component (B_x, B_y, B_z). A component whose exact value vanishes everywhere is measured
+    Vectors give one entry for the whole, B = mean|B - exact| / mean|exact|, and one a component (B_x, B_y, B_z). A component whose exact value vanishes everywhere is measured
     against the mean magnitude of the vector; what vanishes altogether has no relative error and is left out. Frozen
     ends are left out too: their outermost particles have neighbours on one side only.
     """
@@ -41,4 +41,5 @@ def member_errors(name: str, have: np.ndarray, exact: np.ndarray) -> dict[str, f
     tiny = 1e-12 * magnitude  # a component that is zero but for round-off
     scale = [part if part > tiny else magnitude for part in np.abs(exact).mean(axis=0)]
     error = np.abs(have - exact).mean(axis=0)
-    return {f"{name}_{AXES[a]}": float(error[a] / scale[a]) for a in range(have.shape[1])}
+    whole = float(np.linalg.norm(have - exact, axis=1).mean() / magnitude)
+    return {name: whole, **{f"{name}_{AXES[a]}": float(error[a] / scale[a]) for a in range(have.shape[1])}}

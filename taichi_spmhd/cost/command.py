@@ -1,0 +1,78 @@
+"""The command: plan, measure, record, tell."""
+
+from pathlib import Path
+
+from ..errors import InputError
+from ..outputs.progress import progress
+from ..outputs.signals import Interrupted, Stop
+from ..outputs.words import duration, say
+from . import places, report
+from .forecast import Forecast
+from .machine import machine
+from .plan import Plan, measurable, planned
+from .record import Record
+
+
+def main(args, given: dict) -> int:
+    """Measure the grid of settings; given: the assignments of --set. Returns 0, or 130 where it was interrupted."""
+    asked = {name: getattr(args, name) for name in ("precision", "threads", "repeat", "budget")}
+    asked["threads"] = share_of_cores(args.threads, args.jobs)
+    arch = "cpu" if args.arch == "auto" else args.arch
+    plan = planned(args.scene, given, args.vary, args.variant, args.error, args.t_end, arch=arch, **asked)
+    measurable(plan)
+    record = Record(args.out or Path("out") / "cost" / plan.name, plan, machine())
+    record.take_up() if args.resume else record.begin()
+    with Stop() as stop:
+        try:
+            measure(record, args, stop)
+        except Interrupted:
+            return interrupted(record, args.quiet)
+    report.finish(record, args.quiet)
+    return 0
+
+
+def share_of_cores(threads: int | None, jobs: int) -> int | None:
+    """Threads of a run: what is asked for, or the cores that a job has for itself."""
+    import os
+
+    if not 1 <= jobs <= 256:
+        raise InputError(f"--jobs {jobs}: give a whole number from 1 to 256")
+    return threads or max(1, (os.cpu_count() or 1) // jobs)
+
+
+def measure(record: Record, args, stop: Stop) -> None:
+    """Run what is still to be run, in rounds, and keep every result."""
+    plan: Plan = record.plan
+    todo = places.tasks(plan, record.done())
+    forecast, bar = Forecast(todo, plan.budget), progress(args.quiet)
+    wrong = {key for key, _ in record.done() if any(run["key"] == key and run.get("wrong") for run in record.runs)}
+    bar.note(f"{plan.name}: {len(plan.settings)} settings, {plan.repeat} runs each, cheapest first; compiling")
+    try:
+        wanted = lambda task: task.setting.key not in wrong and forecast.fits(task)  # noqa: E731
+        for done, (task, result) in enumerate(places.side_by_side(todo, plan.arch, args.jobs, wanted, stop.check), 1):
+            record.add(task, result)
+            forecast.learn(task, result)
+            wrong |= {task.setting.key} if result.get("wrong") else set()
+            bar.show(forecast.share(done), speed(result))
+    finally:
+        bar.end()
+    if forecast.left_out and not args.quiet:
+        left = f"{forecast.left_out} of {len(todo)} runs"
+        say(f"The budget of {duration(plan.budget)} left out {left}; go on with --resume.")
+
+
+def speed(result: dict) -> float:
+    """Particle updates per second."""
+    return result["particles"] * result["steps"] / result["seconds"] if result.get("seconds") else 0.0
+
+
+def interrupted(record: Record, quiet: bool) -> int:
+    """Tell what there is so far."""
+    from ..cli.main import INTERRUPTED, complain
+
+    if record.runs:
+        report.finish(record, quiet)
+    where = (
+        f"{len(record.runs)} runs are in {record.root}; go on with --resume" if record.runs else "nothing was written"
+    )
+    return complain(f"interrupted; {where}", INTERRUPTED)

@@ -1,0 +1,89 @@
+"""Measuring a setting, in the process that computes: the whole run from t = 0 to t_end, compiled beforehand."""
+
+import hashlib
+import os
+import time
+from pathlib import Path
+
+from .. import runtime
+from ..library import load_scene
+from ..outputs.plan import chosen
+from ..recast import restart
+from ..runtime import ti
+from ..scene_code import code_of
+from ..simulation import Simulation
+from . import choices
+from .calibration import Calibration
+from .figures import figures
+
+ROOM = 1.5e9  # bytes of simulations kept for the next round
+
+
+class Bench:
+    """Runs orders; keeps what it has compiled for their repetitions, as far as memory goes."""
+
+    def __init__(self):
+        self.sims: dict[str, Simulation] = {}
+        self.loop = Calibration()
+
+    def run(self, order: dict) -> dict:
+        """order: path, parameters, changes, variant, t_end (or None), key. Returns what `measured` says."""
+        with code_of(Path(order["path"])):
+            sim, seconds_compile = self.ready(order)
+            return {**measured(sim, self.loop), "seconds_compile": seconds_compile, **runtime.started()}
+
+    def ready(self, order: dict) -> tuple[Simulation, float]:
+        """A simulation at its start with everything compiled, and the seconds that took."""
+        clock = time.perf_counter()
+        sim = self.sims.pop(order["key"], None)
+        if sim is None:
+            sim = Simulation(scene(order))
+            sim.begin()
+            sim.step()
+            sim.columns()
+            self.make_room(sim)
+        self.sims[order["key"]] = sim  # the latest used is the last
+        restart(sim)
+        return sim, time.perf_counter() - clock
+
+    def make_room(self, sim: Simulation) -> None:
+        """Close those not used for longest until this one fits."""
+        while self.sims and sum(map(size, self.sims.values())) + size(sim) > ROOM:
+            self.sims.pop(next(iter(self.sims))).close()
+
+
+def size(sim: Simulation) -> int:
+    """Bytes on the device."""
+    return len(sim) * (sim.particles.bytes_each + sim.neighbours.bytes_each)
+
+
+def scene(order: dict):
+    """The scene of an order."""
+    variants = load_scene(order["path"], **order["parameters"])
+    return choices.applied(chosen(variants, [order["variant"]], order["t_end"])[order["variant"]], order["changes"])
+
+
+def measured(sim: Simulation, loop: Calibration) -> dict:
+    """Seconds of all steps, the calibration loop just before and after, cores got, the load of the machine, figures."""
+    before = loop.seconds()
+    sim.seconds, sim.timed = 0.0, 0
+    wall, work = time.perf_counter(), time.process_time()
+    sim.run()
+    ti.sync()
+    wall, work = time.perf_counter() - wall, time.process_time() - work
+    return {
+        "seconds": sim.seconds,
+        "calibration": 0.5 * (before + loop.seconds()),
+        "cores": work / wall,
+        "load": os.getloadavg()[0] if hasattr(os, "getloadavg") else None,
+        **figures(sim),
+        "digest": digest(sim),
+    }
+
+
+def digest(sim: Simulation) -> str:
+    """A hash of the final state: the same bits give the same one."""
+    made, columns = hashlib.sha256(), sim.columns()
+    for name in sorted(columns):
+        made.update(columns[name].tobytes())
+    return made.hexdigest()[:16]
