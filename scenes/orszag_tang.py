@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from taichi_spmhd import Adiabatic, CubicSpline, Picture, Scene, square
+from taichi_spmhd import Adiabatic, CubicSpline, Picture, Scene, Study, square
 from taichi_spmhd.terms import (
     Cleaning,
     Conductivity,
@@ -29,6 +29,7 @@ BOX = (1.0, 1.0)
 RHO, P, B0 = 25 / (36 * np.pi), 5 / (12 * np.pi), 1 / np.sqrt(4 * np.pi)
 
 REFERENCE = Path(__file__).parent / "reference" / "ot_t0.50_c128.npz"  # that grid run, in means of 128^2 cells
+STUDY = Study({"nx": (32, 64, 128)}, variants=("without cleaning", "with cleaning"), error="B")  # for `spmhd cost`
 
 
 def start(x):

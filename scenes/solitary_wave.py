@@ -11,20 +11,37 @@ xi = 0 survive. It costs about 10 s on two cores.
 
 from math import sqrt
 
-from taichi_spmhd import Adiabatic, InputError, Picture, QuinticSpline, Scene, exact, hexagonal
+from taichi_spmhd import Adiabatic, InputError, Picture, QuinticSpline, Scene, Study, exact, hexagonal
 from taichi_spmhd.terms import DivBSource, Induction, Stress, Viscosity
 
 HALF, ROWS = 4.0, 20  # half the length of the box; rows across, room for the kernels of clumped gas
 RHO, P, GAMMA = 1.0, 1.0, 5 / 3
 
 
-def scenes(nx: int = 128, beta: float = 0.1, amplitude: float = 0.01, width: float = 3.0, t_end: float = 0.6):
-    """amplitude: of the pulse in v_x; width: exp(-(x/w)^2), w in smoothing lengths; beta = 2P/B^2."""
-    if not (beta > 0 and width > 0):
-        raise InputError(f"beta = {beta:g} and width = {width:g} must be positive, for example beta=0.1 width=3")
+# For `spmhd cost`: one and the same pulse, better resolved by more particles.
+STUDY = Study(
+    {"length": (0.4,), "nx": (64, 128, 256), "kernel": ("cubic", "quintic", "wendland_c4")},
+    variants=("xi = 1/2", "xi = 1"),
+)
+
+
+def scenes(
+    nx: int = 128,
+    beta: float = 0.1,
+    amplitude: float = 0.01,
+    width: float = 3.0,
+    length: float = 0.0,
+    t_end: float = 0.6,
+):
+    """amplitude: of the pulse in v_x; width: exp(-(x/w)^2), w in smoothing lengths; beta = 2P/B^2; length: w itself,
+    where it is to stay the same at every nx (0: take width)."""
+    if not (beta > 0 and width > 0 and length >= 0):
+        raise InputError(
+            f"beta = {beta:g}, width = {width:g} must be positive, for example beta=0.1 width=3; length >= 0"
+        )
     dx, kernel = 2 * HALF / nx, QuinticSpline()
     box = ((-HALF, HALF), (0.0, ROWS * sqrt(0.75) * dx))
-    w = width * kernel.h_fact * sqrt(sqrt(0.75)) * dx  # h = h_fact sqrt(m/rho) of a hexagonal lattice
+    w = length or width * kernel.h_fact * sqrt(sqrt(0.75)) * dx  # h = h_fact sqrt(m/rho) of a hexagonal lattice
     B0 = sqrt(2 * P / beta)
 
     def pulse(x, t):

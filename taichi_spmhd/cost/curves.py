@@ -1,6 +1,6 @@
 """What is drawn into the work-precision diagram: methods, anchors, the Pareto front, slopes to compare with."""
 
-from .orders import methods, pareto
+from .orders import growth, methods, pareto
 
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#7a5195", "#5b5b5b")  # Okabe & Ito first
 MARKERS = ("o", "s", "^", "D", "v", "P", "*", "h")
@@ -9,7 +9,7 @@ SLOPES = (1, 2)  # orders of convergence drawn for comparison
 
 
 def curves(axes, plan, rows: list[dict]) -> None:
-    """A line for every method: colour and marker by all but the precision, f32 dashed and open; doubtful ones crossed."""
+    """A line for every method: colour and marker by all but the precision, f32 dashed and open; doubts crossed."""
     kinds: dict[str, int] = {}
     for method, there in methods(rows, plan.telling, plan.level).items():
         half = there[0]["setting"]["precision"] == "f32" and "precision" in plan.telling
@@ -48,10 +48,11 @@ def name(axes, level: float, point, colour: str, above: bool = True) -> None:
     axes.annotate(f"{level:g}", point, xytext=shift, textcoords="offset points", fontsize=8, color=colour, ha=side)
 
 
-def anchored(axes, anchor) -> None:
-    """Somebody else's curve, in grey."""
+def anchored(axes, anchor, k: int) -> None:
+    """Somebody else's curve, the k-th, in grey."""
     _, x, y = zip(*anchor.points, strict=True)
-    axes.plot(x, y, color=GREY, lw=1.1, marker="d", ms=5, linestyle=":", label=anchor.label, zorder=2)
+    look = {"marker": "dp8"[k % 3], "linestyle": (":", "-.", "--")[k % 3]}
+    axes.plot(x, y, color=GREY, lw=1.1, ms=5, label=anchor.label, zorder=2, **look)
     for level, seconds, error in anchor.points:
         name(axes, level, (seconds, error), GREY)
 
@@ -68,14 +69,14 @@ def front(axes, rows: list[dict]) -> None:
 
 
 def slopes(axes, plan, rows: list[dict]) -> None:
-    """error ~ seconds^(-p/(d+1)): what order p would give, since particles times steps go with nx^(d+1)."""
-    best = pareto(rows)
-    if not plan.level or not best:
+    """error ~ seconds^(-p/g): what order p would give where particles times steps go with resolution^g."""
+    best, g = pareto(rows), growth(rows, plan)
+    if not g or not best:
         return
     x0, y0 = best[0]["seconds"], 1.7 * best[0]["error"]
     x1 = max(axes.get_xlim()[1], 1.01 * x0)
     for p in SLOPES:
-        end = y0 * (x1 / x0) ** (-p / (plan.dim + 1))
+        end = y0 * (x1 / x0) ** (-p / g)
         axes.plot([x0, x1], [y0, end], color="#c8c8c8", lw=0.9, zorder=0, scalex=False, scaley=False)
         middle = ((x0 * x1) ** 0.5, (y0 * end) ** 0.5)
         small = {"fontsize": 7.5, "color": "#9a9a9a", "clip_on": True}

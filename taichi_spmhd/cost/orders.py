@@ -24,14 +24,11 @@ def label(row: dict, names) -> str:
 
 
 def methods(rows: list[dict], telling: list[str], level: str | None) -> dict[str, list[dict]]:
-    """{method: rows from coarse to fine}: a method is everything but the resolution."""
+    """{method: rows}, the rows in their order, which is from coarse to fine: a method is all but the resolution."""
     found: dict[str, list[dict]] = {}
     for row in rows:
         if row["error"] is not None:
             found.setdefault(label(row, [name for name in telling if name != level]), []).append(row)
-    if level:
-        for there in found.values():
-            there.sort(key=lambda row: row["setting"][level])
     return found
 
 
@@ -63,6 +60,18 @@ def sound(row: dict) -> bool:
 
 def fit(there: list[dict], level: str) -> float:
     """The order over all resolutions: the least-squares slope of log error over log resolution."""
-    points = [(log(row["setting"][level]), log(row["error"])) for row in there if row["error"]]
-    x, y = (sum(axis) / len(points) for axis in zip(*points, strict=True))
-    return -sum((a - x) * (b - y) for a, b in points) / sum((a - x) ** 2 for a, _ in points)
+    return -steepness([(row["setting"][level], row["error"]) for row in there if row["error"]])
+
+
+def growth(rows: list[dict], plan) -> float:
+    """The power of the resolution with which particles times steps grow, of the method with most rows; 0 without."""
+    longest = max(methods(rows, plan.telling, plan.level).values(), key=len, default=[]) if plan.level else []
+    work = [(row["setting"][plan.level], row["particles"] * row["steps"]) for row in longest]
+    return max(0.0, steepness(work)) if len(work) > 1 else 0.0
+
+
+def steepness(points: list[tuple[float, float]]) -> float:
+    """The least-squares slope of log y over log x."""
+    logs = [(log(x), log(y)) for x, y in points]
+    x, y = (sum(axis) / len(points) for axis in zip(*logs, strict=True))
+    return sum((a - x) * (b - y) for a, b in logs) / sum((a - x) ** 2 for a, _ in logs)

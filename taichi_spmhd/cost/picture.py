@@ -7,6 +7,7 @@ from .calibration import STANDARD
 from .curves import anchored, curves, front, slopes
 
 PALE = "#555555"
+FEW = 3000  # range up to which 2 and 5 are written too
 
 
 def draw(plan, rows: list[dict], error: str, where: str, caption: str, path) -> None:
@@ -18,8 +19,8 @@ def draw(plan, rows: list[dict], error: str, where: str, caption: str, path) -> 
     canvas = FigureCanvasAgg(figure)
     axes = figure.add_subplot(xscale="log", yscale="log")
     curves(axes, plan, rows)
-    for anchor in plan.anchors:
-        anchored(axes, anchor)
+    for k, anchor in enumerate(plan.anchors):
+        anchored(axes, anchor, k)
     front(axes, rows)
     room(axes)
     slopes(axes, plan, rows)
@@ -46,8 +47,8 @@ def labels(axes, plan, error: str, where: str) -> None:
     axes.set_ylabel(f"error in {error}: mean |difference| / mean |exact|")
     axes.grid(True, which="major", color="#e4e4e4", lw=0.7)
     axes.set_axisbelow(True)
-    for axis in (axes.xaxis, axes.yaxis):
-        axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    for axis, (lo, hi) in ((axes.xaxis, axes.get_xlim()), (axes.yaxis, axes.get_ylim())):
+        axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if hi < FEW * lo else (1.0,)))
         axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
         axis.set_minor_formatter(NullFormatter())
 

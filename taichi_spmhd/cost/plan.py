@@ -51,6 +51,11 @@ class Plan:
         values = {name: {repr(s.values().get(name)) for s in self.settings} for name in self.settings[0].values()}
         return sorted((name for name, there in values.items() if len(there) > 1), key=lambda name: name == self.level)
 
+    def rank(self, values: dict) -> list[int]:
+        """Where a setting stands among all, by the order in which its values were given."""
+        axes = {"variant": self.labels, **self.varied}
+        return [axes[name].index(values[name]) for name in self.telling if name in axes]
+
     def order(self, setting: Setting) -> dict:
         """What a worker needs to know."""
         own = {"parameters": {**self.fixed, **setting.parameters}, "changes": setting.changes}
@@ -106,6 +111,7 @@ def planned(scene, given: dict, vary: list[str], labels, error, t_end, **rest) -
     scenes = chosen(library.load_scene(path, **fixed), labels, t_end)
     first = next(iter(scenes.values()))
     varied = grid.axes(asked, known, first)
+    varied = {name: sorted(values) if all(map(number, values)) else values for name, values in varied.items()}
     place = {"precision": rest["precision"], "threads": rest["threads"] or os.cpu_count() or 1}
     return Plan(
         path=path,

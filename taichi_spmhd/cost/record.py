@@ -76,8 +76,8 @@ class Record:
         return wanted or next(iter(found), None)
 
     def rows(self) -> list[dict]:
-        """What the runs say together."""
-        return rows(self.plan.settings, self.runs, self.error())
+        """What the runs say together, method by method, each from coarse to fine."""
+        return sorted(rows(self.plan.settings, self.runs, self.error()), key=lambda row: self.plan.rank(row["setting"]))
 
 
 def table(made: list[dict]) -> str:

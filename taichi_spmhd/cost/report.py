@@ -64,11 +64,9 @@ def headers(plan, error: str) -> list[str]:
 
 
 def lines(plan, made: list[dict]) -> list[list[str]]:
-    """One setting a line, method by method, each from coarse to fine."""
+    """One setting a line."""
     best = pareto(made)
-    there = [row for rows in methods(made, plan.telling, plan.level).values() for row in rows]
-    rest = [row for row in made if not any(row is one for one in there)]
-    return [cells(plan, row, any(row is one for one in best)) for row in (*there, *rest)]
+    return [cells(plan, row, any(row is one for one in best)) for row in made]
 
 
 def cells(plan, row: dict, best: bool) -> list[str]:

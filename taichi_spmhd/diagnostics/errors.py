@@ -15,9 +15,10 @@ def errors(sim, columns: dict | None = None) -> dict[str, float]:
 def exact_errors(sim, columns: dict | None = None) -> dict[str, float]:
     """Normalised L1 at the particles, mean|f - exact| / mean|exact|, by member; {} for a scene without a solution.
 
-    Vectors give one entry for the whole, B = mean|B - exact| / mean|exact|, and one a component (B_x, B_y, B_z). A component whose exact value vanishes everywhere is measured
-    against the mean magnitude of the vector; what vanishes altogether has no relative error and is left out. Frozen
-    ends are left out too: their outermost particles have neighbours on one side only.
+    Vectors give one entry for the whole, B: mean |B - exact| / mean |exact| of the lengths, and one a component (B_x,
+    B_y, B_z). A component whose exact value vanishes everywhere is measured against the mean magnitude of the vector;
+    what vanishes altogether has no relative error and is left out. Frozen ends are left out too: their outermost
+    particles have neighbours on one side only.
     """
     if sim.scene.exact is None:
         return {}
