@@ -135,7 +135,7 @@ def comparable(study: Study, error, t_end) -> bool:
 
 def checked(rest: dict) -> dict:
     """repeat and budget, in bounds."""
-    repeat, budget = rest.get("repeat") or REPEAT, rest.get("budget")
+    repeat, budget = REPEAT if rest["repeat"] is None else rest["repeat"], rest["budget"]
     if not 1 <= repeat <= 100:
         raise InputError(f"--repeat {repeat}: give a whole number from 1 to 100")
     if budget is not None and not 0 < budget < float("inf"):
