@@ -15,6 +15,7 @@ def add(commands, common) -> None:
     parser.add_argument("--budget", type=float, metavar="SECONDS", help="stop starting runs after so long")
     parser.add_argument("--effects", action="store_true", help="the price list: what each term and choice costs a step")
     parser.add_argument("--jobs", type=int, default=1, metavar="N", help="N runs side by side (default 1)")
+    parser.add_argument("--cluster", metavar="ADDRESS", help="run on this Dask cluster, as tcp://host:8786")
     parser.add_argument("--out", metavar="DIR", help="folder for the files (default out/cost/SCENE)")
     parser.add_argument("--resume", action="store_true", help="go on with the study in --out")
     parser.set_defaults(command=main)

@@ -1,5 +1,7 @@
 """The command: plan, measure, record, tell."""
 
+import os
+from collections.abc import Iterator
 from pathlib import Path
 
 from ..errors import InputError
@@ -16,7 +18,7 @@ from .record import Record
 def main(args, given: dict) -> int:
     """Measure the grid of settings; given: the assignments of --set. Returns 0, or 130 where it was interrupted."""
     asked = {name: getattr(args, name) for name in ("precision", "threads", "repeat", "budget")}
-    asked["threads"] = share_of_cores(args.threads, args.jobs)
+    asked["threads"] = share_of_cores(args)
     arch = "cpu" if args.arch == "auto" else args.arch
     plan = planned(args.scene, given, args.vary, args.variant, args.error, args.t_end, arch=arch, **asked)
     measurable(plan)
@@ -31,13 +33,22 @@ def main(args, given: dict) -> int:
     return 0
 
 
-def share_of_cores(threads: int | None, jobs: int) -> int | None:
-    """Threads of a run: what is asked for, or the cores that a job has for itself."""
-    import os
+def share_of_cores(args) -> int:
+    """Threads of a run: what is asked for, or the cores that a job has for itself; one on a cluster."""
+    if not 1 <= args.jobs <= 256:
+        raise InputError(f"--jobs {args.jobs}: give a whole number from 1 to 256")
+    if args.cluster and args.jobs > 1:
+        raise InputError("--jobs and --cluster: a cluster has as many jobs as workers; leave out --jobs")
+    return args.threads or (1 if args.cluster else max(1, (os.cpu_count() or 1) // args.jobs))
 
-    if not 1 <= jobs <= 256:
-        raise InputError(f"--jobs {jobs}: give a whole number from 1 to 256")
-    return threads or max(1, (os.cpu_count() or 1) // jobs)
+
+def measured(todo: list, plan: Plan, args, wanted, check) -> Iterator[tuple]:
+    """(task, result) as they come, from this machine or from a cluster."""
+    if args.cluster:
+        from .cluster import on_cluster
+
+        return on_cluster(todo, plan.arch, args.cluster, wanted, check)
+    return places.side_by_side(todo, plan.arch, args.jobs, wanted, check)
 
 
 def measure(record: Record, args, stop: Stop) -> None:
@@ -49,7 +60,7 @@ def measure(record: Record, args, stop: Stop) -> None:
     bar.note(f"{plan.name}: {len(plan.settings)} settings, {plan.repeat} runs each, cheapest first; compiling")
     try:
         wanted = lambda task: task.setting.key not in wrong and forecast.fits(task)  # noqa: E731
-        for done, (task, result) in enumerate(places.side_by_side(todo, plan.arch, args.jobs, wanted, stop.check), 1):
+        for done, (task, result) in enumerate(measured(todo, plan, args, wanted, stop.check), 1):
             record.add(task, result)
             forecast.learn(task, result)
             wrong |= {task.setting.key} if result.get("wrong") else set()

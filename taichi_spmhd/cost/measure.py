@@ -3,10 +3,9 @@
 import hashlib
 import os
 import time
-from pathlib import Path
 
 from .. import runtime
-from ..library import load_scene
+from ..library import find, load_scene
 from ..outputs.plan import chosen
 from ..recast import restart
 from ..runtime import ti
@@ -27,8 +26,8 @@ class Bench:
         self.loop = Calibration()
 
     def run(self, order: dict) -> dict:
-        """order: path, parameters, changes, variant, t_end (or None), key. Returns what `measured` says."""
-        with code_of(Path(order["path"])):
+        """order: path or name, parameters, changes, variant, t_end, key. Returns what `measured` says."""
+        with code_of(find(order["path"])):
             sim, seconds_compile = self.ready(order)
             return {**measured(sim, self.loop), "seconds_compile": seconds_compile, **runtime.started()}
 

@@ -57,11 +57,11 @@ class Plan:
         return [axes[name].index(values[name]) for name in self.telling if name in axes]
 
     def order(self, setting: Setting) -> dict:
-        """What a worker needs to know."""
+        """What a worker needs to know; a scene that ships goes by its name, another machine has it elsewhere."""
         own = {"parameters": {**self.fixed, **setting.parameters}, "changes": setting.changes}
         place = {"precision": setting.precision, "threads": setting.threads}
         return {
-            "path": str(self.path),
+            "path": self.name if self.path in library.shipped().values() else str(self.path),
             **own,
             "variant": setting.variant,
             "t_end": self.t_end,
