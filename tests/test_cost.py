@@ -250,7 +250,7 @@ def test_an_axis_that_is_no_parameter_of_the_scene_is_not_silently_ignored():
 
 @pytest.mark.slow
 def test_the_travelling_alfven_wave_is_as_accurate_as_asked():
-    """Vector error after one period, nx = 64 (55 spacings a wavelength) and 74 (64). Measured 1.46e-3 and 1.08e-3; an
+    """Vector error after one period, nx = 64 (55 spacings a wavelength) and 74 (64). Measured 1.10e-3 and 1.08e-3; an
     established SPMHD code in Fortran has 1.05e-3 at 64. Wendland C4 stays at 1.67e-3, its bias at h_fact = 1.5.
     """
     made = plan("alfven_tensile", ["nx=64,74", "kernel=wendland_c6"])

@@ -8,15 +8,18 @@ from ..errors import InputError
 from ..outputs.progress import progress
 from ..outputs.signals import Interrupted, Stop
 from ..outputs.words import duration, say
-from . import places, report
+from ..runtime import PRECISIONS
+from . import grid, places, report
 from .forecast import Forecast
 from .machine import machine
-from .plan import Plan, measurable, planned
+from .plan import Plan, checked, measurable, planned, single
 from .record import Record
 
 
 def main(args, given: dict) -> int:
     """Measure the grid of settings; given: the assignments of --set. Returns 0, or 130 where it was interrupted."""
+    if args.effects:
+        return effects(args, given)
     asked = {name: getattr(args, name) for name in ("precision", "threads", "repeat", "budget")}
     asked["threads"] = share_of_cores(args)
     arch = "cpu" if args.arch == "auto" else args.arch
@@ -31,6 +34,24 @@ def main(args, given: dict) -> int:
             return interrupted(record, args.quiet)
     report.finish(record, args.quiet)
     return 0
+
+
+def effects(args, given: dict) -> int:
+    """The price list instead. Raises InputError for options that have no meaning for it."""
+    from .prices import command
+
+    for name in ("error", "resume", "cluster", "t_end"):
+        if getattr(args, name):
+            raise InputError(f"--{name.replace('_', '-')} has no meaning with --effects; leave it out")
+    vary = grid.words(args.vary)
+    if set(vary) - {"precision"}:
+        raise InputError("--effects takes --vary precision=... alone; set parameters of the scene with --set")
+    precisions = [grid.value("precision", one, {}, None) for one in vary.get("precision", PRECISIONS)]
+    place = {"arch": "cpu" if args.arch == "auto" else args.arch, "precision": precisions[0]}
+    plan, scene = single(args.scene, given, args.variant, **place, threads=share_of_cores(args))
+    rounds = command.ROUNDS if args.repeat is None else args.repeat
+    rounds = checked({"repeat": rounds, "budget": args.budget})["repeat"]
+    return command.main(plan, scene, precisions, rounds, args)
 
 
 def share_of_cores(args) -> int:

@@ -1,5 +1,6 @@
 """Measuring a setting, in the process that computes: the whole run from t = 0 to t_end, compiled beforehand."""
 
+import contextlib
 import hashlib
 import os
 import time
@@ -14,6 +15,7 @@ from ..simulation import Simulation
 from . import choices
 from .calibration import Calibration
 from .figures import figures
+from .prices.steps import timed
 
 ROOM = 1.5e9  # bytes of simulations kept for the next round
 
@@ -26,20 +28,23 @@ class Bench:
         self.loop = Calibration()
 
     def run(self, order: dict) -> dict:
-        """order: path or name, parameters, changes, variant, t_end, key. Returns what `measured` says."""
+        """order: path or name, parameters, changes, variant, t_end, key; steps: how many, without it the whole run.
+
+        Returns what `measured` says of a whole run, or prices.steps.timed of some steps.
+        """
         with code_of(find(order["path"])):
             sim, seconds_compile = self.ready(order)
-            return {**measured(sim, self.loop), "seconds_compile": seconds_compile, **runtime.started()}
+            steps = order.get("steps")
+            made = timed(sim, steps) if steps else measured(sim, self.loop)
+            return {**made, "seconds_compile": seconds_compile, **runtime.started()}
 
     def ready(self, order: dict) -> tuple[Simulation, float]:
         """A simulation at its start with everything compiled, and the seconds that took."""
         clock = time.perf_counter()
         sim = self.sims.pop(order["key"], None)
         if sim is None:
-            sim = Simulation(scene(order))
-            sim.begin()
-            sim.step()
-            sim.columns()
+            with written_to(order.get("code")):
+                sim = compiled(scene(order))
             self.make_room(sim)
         self.sims[order["key"]] = sim  # the latest used is the last
         restart(sim)
@@ -49,6 +54,30 @@ class Bench:
         """Close those not used for longest until this one fits."""
         while self.sims and sum(map(size, self.sims.values())) + size(sim) > ROOM:
             self.sims.pop(next(iter(self.sims))).close()
+
+
+def compiled(scene) -> Simulation:
+    """A simulation that has done everything once."""
+    sim = Simulation(scene)
+    sim.begin()
+    sim.step()
+    sim.columns()
+    return sim
+
+
+@contextlib.contextmanager
+def written_to(folder: str | None):
+    """Taichi writes the code it compiles, where it is asked to, into the current folder: let that be this one."""
+    if folder is None:
+        yield
+        return
+    before = os.getcwd()
+    os.makedirs(folder, exist_ok=True)
+    os.chdir(folder)
+    try:
+        yield
+    finally:
+        os.chdir(before)
 
 
 def size(sim: Simulation) -> int:

@@ -27,9 +27,11 @@ def tasks(plan, done: set[tuple[str, int]]) -> list[Task]:
     return [task for task in every if (task.setting.key, task.round) not in done]
 
 
-def one_by_one(todo: list[Task], arch: str, wanted: Callable, check: Callable) -> Iterator[tuple[Task, dict]]:
-    """One after another. wanted(task): whether to start it at all; check() may raise to stop."""
-    workers = Workers(arch)
+def one_by_one(
+    todo: list[Task], arch: str, wanted: Callable, check: Callable, environment: dict | None = None
+) -> Iterator[tuple[Task, dict]]:
+    """One after another. wanted(task): whether to start it at all; check() may raise to stop; environment: more."""
+    workers = Workers(arch, environment)
     try:
         for task in todo:
             if wanted(task):

@@ -10,6 +10,7 @@ from ..errors import InputError
 from ..outputs.files import plain
 from ..outputs.plan import chosen
 from ..parameters import parameters, settled
+from ..scene import Scene
 from ..study import Anchor, Study
 from . import grid
 from .setting import Setting
@@ -126,6 +127,16 @@ def planned(scene, given: dict, vary: list[str], labels, error, t_end, **rest) -
         arch=rest["arch"],
         **checked(rest),
     )
+
+
+def single(scene, given: dict, labels, **place) -> tuple[Plan, Scene]:
+    """A scene as it is, in one variant (the last unless named), and that variant; place: arch, precision, threads."""
+    path = library.find(scene)
+    fixed = settled(parameters(library.module(path).scenes), given, path.stem)
+    label, one = list(chosen(library.load_scene(path, **fixed), labels).items())[-1]
+    setting = Setting({}, {}, label, place["precision"], place["threads"])
+    own = {"path": path, "fixed": fixed, "varied": {}, "labels": [label], "settings": [setting], "error": None}
+    return Plan(**own, anchors=(), t_end=float(one.t_end), dim=one.dim, arch=place["arch"]), one
 
 
 def comparable(study: Study, error, t_end) -> bool:

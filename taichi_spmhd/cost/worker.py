@@ -24,13 +24,13 @@ class Died(RunError):
 class Worker:
     """worker = Worker("cpu", "f64", 2); worker.ask(order) -> result. It ends with its parent, or by close()."""
 
-    def __init__(self, arch: str, precision: str, threads: int):
+    def __init__(self, arch: str, precision: str, threads: int, environment: dict | None = None):
         words = ["--arch", arch, "--precision", precision, "--threads", str(threads)]
         path = os.pathsep.join([str(PACKAGE), *filter(None, [os.environ.get("PYTHONPATH")])])
         self.complaints = tempfile.TemporaryFile("w+", encoding="utf-8", errors="replace")  # noqa: SIM115  until close()
         self.running = subprocess.Popen(
             [sys.executable, "-m", "taichi_spmhd.cost.child", *words],
-            env={**os.environ, "PYTHONPATH": path, "PYTHONUNBUFFERED": "1"},
+            env={**os.environ, "PYTHONPATH": path, "PYTHONUNBUFFERED": "1", **(environment or {})},
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=self.complaints,
@@ -86,8 +86,8 @@ class Worker:
 class Workers:
     """Workers of one arch, started when first asked for. One that dies is replaced, and its order repeated once."""
 
-    def __init__(self, arch: str):
-        self.arch, self.there = arch, {}
+    def __init__(self, arch: str, environment: dict | None = None):
+        self.arch, self.environment, self.there = arch, environment, {}
 
     def ask(self, order: dict, check: Callable = lambda: None) -> dict:
         """The result of an order, which says precision and threads; {"wrong": ...} where two processes died of it."""
@@ -105,7 +105,7 @@ class Workers:
         """The process for an order's precision and threads."""
         place = order["precision"], order["threads"]
         if place not in self.there:
-            self.there[place] = Worker(self.arch, *place)
+            self.there[place] = Worker(self.arch, *place, self.environment)
         return self.there[place]
 
     def drop(self, order: dict) -> None:

@@ -1,0 +1,1 @@
+"""The price list: `spmhd cost SCENE --effects`."""
