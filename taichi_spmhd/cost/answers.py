@@ -27,17 +27,26 @@ def cheapest(plan, rows: list[dict], error: str) -> list[str]:
     """The cheapest setting for every round error that the sound ones bracket, and the one that errs least."""
     good = [row for row in rows if sound(row)]
     reached = [row["error"] for row in good]
-    out = [at(plan, rows, error, target) for target in TARGETS if good and min(reached) <= target <= max(reached)]
+    asked = {}  # the smallest target for which a setting is the cheapest
+    for target in TARGETS:
+        if good and min(reached) <= target <= max(reached):
+            asked[quickest(good, target)["key"]] = target
+    out = [at(plan, rows, error, target) for target in asked.values()]
     if good:
         last = pareto(rows)[-1]
         out.append(f"Least error: {percent(last['error'])}: {label(last, plan.telling)}, {duration(last['seconds'])}.")
     return out
 
 
+def quickest(rows: list[dict], target: float) -> dict:
+    """The cheapest sound setting that errs no more than this."""
+    return min((row for row in rows if sound(row) and row["error"] <= target), key=lambda row: row["seconds"])
+
+
 def at(plan, rows: list[dict], error: str, target: float) -> str:
     """The cheapest sound setting for an error; a cheaper one that is wrong is named with what is wrong."""
     within = [row for row in rows if row["error"] is not None and row["error"] <= target]
-    found = min((row for row in within if sound(row)), key=lambda row: row["seconds"])
+    found = quickest(within, target)
     said = f"{percent(target)} error in {error}: cheapest is {label(found, plan.telling)}, {duration(found['seconds'])}"
     tempting = [row for row in within if row["doubts"] and row["seconds"] < found["seconds"]]
     if tempting:
