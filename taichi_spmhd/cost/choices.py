@@ -59,7 +59,9 @@ def read(scene: Scene, name: str, text: str):
 
 def applied(scene: Scene, changes: dict) -> Scene:
     """The scene with every choice made. Raises InputError where a part refuses its number."""
-    for name in sorted(changes, key=order):
+    gone = [name for name, value in changes.items() if value is False]
+    scene = scene.without(*gone) if gone else scene  # at once: what is left on the way need not be a scene
+    for name in sorted(set(changes) - set(gone), key=order):
         scene = change(scene, name, changes[name])
     return scene
 
@@ -84,4 +86,4 @@ def change(scene: Scene, name: str, value) -> Scene:
     if "." in name:
         term, _, what = name.partition(".")
         return scene.tuned(term, **{what: value})
-    return scene if value else scene.without(name)
+    return scene  # a term that stays on

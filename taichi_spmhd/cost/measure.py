@@ -67,16 +67,18 @@ def compiled(scene) -> Simulation:
 
 @contextlib.contextmanager
 def written_to(folder: str | None):
-    """Taichi writes the code it compiles, where it is asked to, into the current folder: let that be this one."""
+    """Taichi writes the code it compiles meanwhile, as it gets it from us and from LLVM, into this folder."""
     if folder is None:
         yield
         return
-    before = os.getcwd()
+    before, config = os.getcwd(), ti.lang.impl.current_cfg()
     os.makedirs(folder, exist_ok=True)
     os.chdir(folder)
     try:
+        config.print_kernel_llvm_ir = config.print_kernel_llvm_ir_optimized = True
         yield
     finally:
+        config.print_kernel_llvm_ir = config.print_kernel_llvm_ir_optimized = False
         os.chdir(before)
 
 

@@ -43,6 +43,7 @@ class Record:
         for name, value in self.plan.record().items():
             if name not in MAY_GROW and before.get(name) != value:
                 raise InputError(f"--resume: {difference(name, before.get(name), value)}")
+        self.head["machine"] = before.get("machine", self.head["machine"])  # where and when the runs there were made
         there = {setting.key for setting in self.plan.settings}
         self.runs = [run for run in before["runs"] if run["key"] in there and run["round"] < self.plan.repeat]
 

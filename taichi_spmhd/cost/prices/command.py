@@ -49,8 +49,9 @@ class List:
         )
 
     def written(self, entry: Entry, precision: str, folder: Path) -> Path:
-        """Where the code of an entry is written."""
-        return folder / f"{precision}-{self.entries.index(entry)}"
+        """Where the code of an entry is written: what is the same scene is compiled once."""
+        changes = [other.changes for other in self.entries]
+        return folder / f"{precision}-{changes.index(entry.changes)}"
 
     def add(self, entry: Entry, task: Task, result: dict, folder: Path) -> None:
         """One more result, with what its compiled code says."""
@@ -140,7 +141,8 @@ def measure(made: List, folder: Path, args, stop: Stop) -> None:
             one_by_one(tasks, made.plan.arch, wanted, stop.check, environment(folder)), 1
         ):
             wrong |= {task.setting.key} if "wrong" in result else set()
-            forecast.learn(task, {**result, "seconds": STEPS * result.get("ms", 0.0) / 1e3})
+            if "wrong" not in result:
+                forecast.learn(task, {**result, "seconds": STEPS * result["ms"] / 1e3})
             made.add(entry_of[id(task)], task, result, folder)
             bar.show(forecast.share(done), result.get("particles", 0) * 1e3 / result.get("ms", float("inf")))
     finally:

@@ -49,7 +49,7 @@ def bars(axes, labels: list[str], good: dict[str, dict]) -> None:
     axes.set_xlabel(
         "ms a step: of a term, what it adds; of a choice, what it adds instead of the scene's own", fontsize=8.5
     )
-    axes.legend(fontsize=8, frameon=False, loc="lower right")
+    axes.legend(fontsize=8, frameon=False, ncols=2, loc="lower right", bbox_to_anchor=(1.0, 1.0))
 
 
 def phases(axes, good: dict[str, dict]) -> None:

@@ -33,7 +33,7 @@ def tables(found: dict[str, dict]) -> list[tuple[list[str], list[list[str]]]]:
 def term_cells(one: dict) -> list[str]:
     """A term; one that cannot be taken away says why."""
     if one["ms"] is None:
-        return [one["name"], "", "", "", "", f"cannot go alone: {one['reason']}", ""]
+        return [one["name"], "", "", "", "", f"cannot go alone: {one['reason'].split(':')[0]}", ""]
     price = f"{one['ms']:+.2f}" if abs(one["share"]) >= CLEAR else "0 within the spread"
     code = "" if one["instructions"] is None else f"{one['instructions']:+d}"
     share = f"{100 * one['share']:+.0f} %"
