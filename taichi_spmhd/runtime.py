@@ -7,6 +7,7 @@ import sys
 
 from .cache import LARGEST, free
 from .errors import InputError
+from .launching import quicken
 from .tracing import remember
 
 _LIBX11 = (
@@ -25,6 +26,7 @@ def _import_taichi():
             raise InputError(_LIBX11) from error
         raise
     remember(taichi)
+    quicken(taichi)
     taichi.set_logging_level(taichi.ERROR)  # a library that is not there is our sentence, not Taichi's
     return taichi
 
