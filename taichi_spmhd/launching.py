@@ -11,6 +11,7 @@ from types import MethodType
 
 import numpy as np
 
+MOST = 8  # launches of one kernel of one object, for as many sets of arrays
 NUMBERS = {float: (float, int, np.floating, np.integer), int: (int, np.integer)}
 NEEDED = ("ensure_compiled", "construct_kernel_ret", "launch_kernel")  # of Taichi's kernels, or nothing is changed
 
@@ -41,17 +42,19 @@ class Method:
 
     def __init__(self, wrapped):
         self.kernel, self.__doc__, self.__name__ = wrapped._primal, wrapped.__doc__, wrapped.__name__
-        self.launches: weakref.WeakKeyDictionary = weakref.WeakKeyDictionary()  # {object: that of its last call}
+        self.launches: weakref.WeakKeyDictionary = weakref.WeakKeyDictionary()  # {object: those of its last calls}
 
     def __get__(self, owner, kind=None):
         return self if owner is None else MethodType(self, owner)
 
     def __call__(self, owner, *given):
-        launch = self.launches.get(owner)
-        if launch is not None and launch.fits(given):
-            return launch(given)
+        before = self.launches.get(owner, [])
+        for launch in before:
+            if launch.fits(given):
+                return launch(given)
         out = self.kernel(owner, *given)
-        self.launches[owner] = prepared(self.kernel, owner, given)
+        if launch := prepared(self.kernel, owner, given):
+            self.launches[owner] = [launch, *(other for other in before if other.alive())][:MOST]
         return out
 
 
@@ -105,7 +108,7 @@ class Launch:
     def note(self, k: int, kind: str, value, place: tuple[int]) -> None:
         """How argument k is checked and set at the next calls."""
         if kind in ("array", "compiled in"):
-            self.same.append((k, held(value, kind)))
+            self.same.append((k, held(value)))
         if kind == "array":  # a launch replaces it by its address, so it is set each time
             self.arrays.append((place, value.arr))
         if kind == "numpy":
@@ -129,6 +132,10 @@ class Launch:
             plain(given[k]) and (given[k].dtype, given[k].ndim) == (dtype, ndim) for k, _, dtype, ndim in self.numpy
         )
 
+    def alive(self) -> bool:
+        """Whether its fields and arrays still exist."""
+        return all(value() is not None for _, value in self.same)
+
     def __call__(self, given: tuple):
         for place, array in self.arrays:
             self.context.set_arg_ndarray(place, array)
@@ -143,10 +150,8 @@ class Launch:
         return out[0] if len(out) == 1 else out or None
 
 
-def held(value, kind: str):
-    """Gives a value back: an array is kept alive, anything else only if nothing can point at it from afar."""
-    if kind == "array":
-        return lambda: value
+def held(value):
+    """Gives a value back, without keeping it alive where it can be pointed at from afar."""
     try:
         return weakref.ref(value)
     except TypeError:

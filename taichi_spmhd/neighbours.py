@@ -35,7 +35,6 @@ class Neighbours(Search):
     def build(self) -> None:
         """Note the positions, sort the particles into cells, write the rows."""
         self.follow()
-        self.cells.wrap()
         self.cells.bin(self.pad * self.support)
         self.fits()
         self.cells.sort()
@@ -72,7 +71,7 @@ class Neighbours(Search):
 
     def rebuild(self) -> None:
         """The list as it was when positions x0 were noted: for a state read from disk, already in memory order."""
-        self.cells.bin(self.pad * self.support)
+        self.cells.bin(self.pad * self.support, fold=False)
         self.list(self.pad)
 
     @ti.kernel
@@ -105,4 +104,4 @@ class Neighbours(Search):
     @property
     def bytes_each(self) -> int:
         """Bytes of the list a particle."""
-        return 4 * (self.width + 1 + 1 + self.dim + 1)
+        return 4 * (self.width + 1 + self.dim + 1 + 3)  # entries, their count, compact copies; cell, index and order

@@ -13,6 +13,9 @@ COLD = {"h": real, "rho": real, "Omega": real, "id": integer, "x0": vecd, "h0": 
 class Particles:
     """The state in memory order (sorted by cell at the last list build), its rates, and the permutation of both.
 
+    Record n is nobody, who fills the neighbour rows up to whole vectors: without mass from the start (fields are zero
+    when they are made), and with the other members of particle 0 from the first evaluation on.
+
     members, evolved: {name: type name}. Everything lives in one field tree, which `close` gives back.
     """
 
@@ -26,8 +29,6 @@ class Particles:
         self.tree = ti.FieldsBuilder()
         self.state, self.spare = self.place(self.State, n + 1), self.place(self.State, n + 1)
         self.rate, self.old = self.place(self.Rate), self.place(self.Rate)
-        self.order = ti.field(ti.i32)
-        self.tree.dense(ti.i, n).place(self.order)
         self.layout, self.width = [], 0
         for name, kind in self.members.items():
             if name != "id":
@@ -45,6 +46,7 @@ class Particles:
     def finish(self) -> None:
         """Allocate: nothing can be placed afterwards."""
         self.owner = self.tree.finalize()
+        ti.lang.impl.get_runtime().materialize()  # Taichi 1.7.4 crashes on fields destroyed before it looked at them
 
     def close(self) -> None:
         """Give the memory back."""
@@ -61,25 +63,15 @@ class Particles:
         }
         state = sum(size[kind] for kind in self.members.values())
         rate = sum(word * components(kind, self.dim) for kind in self.evolved.values())
-        return 2 * state + (2 + 2 * len(self.companions)) * rate + 4
+        return 2 * state + (2 + 2 * len(self.companions)) * rate
 
     @ti.kernel
-    def permute(self, field: ti.template(), spare: ti.template()):
+    def permute(self, field: ti.template(), spare: ti.template(), order: ti.types.ndarray(dtype=ti.i32, ndim=1)):
         """field[n] <- field[order[n]]"""
         for n in range(self.n):
-            spare[n] = field[self.order[n]]
+            spare[n] = field[order[n]]
         for n in range(self.n):
             field[n] = spare[n]
-
-    @ti.kernel
-    def ghost(self):
-        """Record n is nobody: no mass, far away. It fills the neighbour rows up to whole vectors."""
-        nobody = self.State(0.0)
-        nobody.h = 1.0
-        nobody.hinv = 1.0
-        nobody.rho = 1.0
-        nobody.Omega = 1.0
-        self.state[self.n] = nobody
 
     @ti.kernel
     def export(self, out: ti.types.ndarray(ndim=2), ids: ti.types.ndarray(dtype=ti.i32, ndim=1)):

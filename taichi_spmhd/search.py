@@ -5,10 +5,12 @@ at a time on compact single-precision copies into a bit mask, whose set bits are
 carries a margin for the round-off of those copies.
 """
 
+from functools import cache
+
 import numpy as np
 
 from .boundary import LOWER
-from .cells import Cells
+from .cells import ROUNDOFF, Cells
 from .errors import RunError
 from .particles import Particles
 from .runtime import ti
@@ -26,29 +28,15 @@ def code_of(image: tuple[int, int, int]) -> int:
 
 
 @ti.data_oriented
-class Search:
-    """Fills `near` (n, width) and `count` (n,) with the particles within a radius around the noted positions x0."""
+class Finder:
+    """The kernel that fills rows, for one box: it knows arrays only and is compiled once for all scenes in that box.
 
-    def __init__(self, particles: Particles, box, boundary, support: float, expected: float):
-        self.p, self.dim, self.support = particles, particles.dim, support
-        self.lo, self.hi, self.size, self.periodic = box.lo, box.hi, box.size, boundary.periodic
-        self.images = tuple((image, code_of(image)) for image in boundary.images)
-        self.cells = Cells(particles, box, boundary.periodic)
-        n = particles.n
-        self.width = LANES * int(np.ceil(1.6 * expected / LANES))
-        self.near, self.count = ti.ndarray(ti.i32, (n, self.width)), ti.ndarray(ti.i32, n)
-        self.at = ti.ndarray(ti.f32, (self.dim + 1, n + BLOCK))  # compact copies of x0 and of the squared radius
-        self.bit = ti.ndarray(ti.i32, BLOCK)
-        self.bit.from_numpy((np.uint32(1) << np.arange(BLOCK, dtype=np.uint32)).view(np.int32))
+    images: ((walls of axes 0, 1, 2), their code), for every combination of walls a particle can be mirrored at.
+    """
 
-    @ti.kernel
-    def compact(
-        self, at: ti.types.ndarray(dtype=ti.f32, ndim=2), pad: float, grid: ti.types.ndarray(ndim=2), roundoff: float
-    ):
-        for n in range(self.p.n):
-            for a in ti.static(range(self.dim)):
-                at[a, n] = ti.cast(self.p.state[n].x0[a] - grid[0, a], ti.f32)
-            at[self.dim, n] = ti.cast((self.support * pad * self.p.state[n].h0 + roundoff) ** 2, ti.f32)
+    def __init__(self, box, periodic: tuple, images: tuple):
+        self.dim, self.lo, self.hi, self.size = box.dim, box.lo, box.hi, box.size
+        self.periodic, self.images = periodic, images
 
     @ti.func
     def separation(self, here, other, a: ti.template(), narrow: ti.template()):
@@ -139,21 +127,23 @@ class Search:
     @ti.kernel
     def fill(self, near: ti.types.ndarray(dtype=ti.i32, ndim=2), count: ti.types.ndarray(dtype=ti.i32, ndim=1),
              first: ti.types.ndarray(dtype=ti.i32, ndim=1), at: ti.types.ndarray(dtype=ti.f32, ndim=2),
-             bit: ti.types.ndarray(dtype=ti.i32, ndim=1), grid: ti.types.ndarray(ndim=2),
-             shape: ti.types.ndarray(dtype=ti.i32, ndim=1), narrow: ti.template()) -> ti.i32:  # fmt: skip
+             bit: ti.types.ndarray(dtype=ti.i32, ndim=1), cell_of: ti.types.ndarray(dtype=ti.i32, ndim=1),
+             grid: ti.types.ndarray(ndim=2), shape: ti.types.ndarray(dtype=ti.i32, ndim=1),
+             narrow: ti.template()) -> ti.i32:  # fmt: skip
         """Write all rows; returns the largest count, which may exceed the width: then the rows are of no use."""
         most = 0
-        for n in range(self.p.n):
+        for n in range(count.shape[0]):
             here = ti.Vector.zero(ti.f32, 3)
             for a in ti.static(range(self.dim)):
                 here[a] = at[a, n]
-            c = self.cells.cell(self.p.state[n].x0, grid, shape)
+            row = cell_of[n] // shape[0]
+            c = ti.Vector([cell_of[n] - row * shape[0], row % shape[1], row // shape[1]])
             found = self.around(n, here, c, 0, 0, shape, first, near, at, bit, narrow)
             for image, code in ti.static(self.images):
                 found = self.mirrored(n, here, image, code, found, shape, first, near, at, bit, grid, narrow)
             rest = found
             while rest % LANES != 0 and rest < near.shape[1]:
-                near[n, rest] = self.p.n
+                near[n, rest] = count.shape[0]
                 rest += 1
             count[n] = rest
             ti.atomic_max(most, found)
@@ -164,17 +154,52 @@ class Search:
                  first: ti.template(), near: ti.template(), at: ti.template(), bit: ti.template(),
                  grid: ti.template(), narrow: ti.template()):  # fmt: skip
         """Neighbours behind walls are those of the mirrored particle: the entry remembers the walls."""
-        x, there = self.p.state[n].x0, here
+        there, c = here, ti.Vector.zero(ti.i32, 3)
         for a in ti.static(range(self.dim)):
             if ti.static(image[a] != 0):
                 wall = self.lo[a] if ti.static(image[a] == LOWER) else self.hi[a]
-                x[a] = 2.0 * wall - x[a]
-                there[a] = ti.cast(x[a] - grid[0, a], ti.f32)
-        return self.around(n, there, self.cells.cell(x, grid, shape), code, found, shape, first, near, at, bit, narrow)
+                there[a] = ti.cast(2.0 * (wall - grid[0, a]), ti.f32) - here[a]
+            c[a] = ti.min(ti.max(ti.cast(ti.floor(there[a] * ti.cast(grid[1, a], ti.f32)), ti.i32), 0), shape[a] - 1)
+        return self.around(n, there, c, code, found, shape, first, near, at, bit, narrow)
+
+
+@cache
+def finder(box, periodic: tuple, images: tuple) -> Finder:
+    """The one Finder of a box."""
+    return Finder(box, periodic, images)
+
+
+@ti.data_oriented
+class Search:
+    """Fills `near` (n, width) and `count` (n,) with the particles within a radius around the noted positions x0."""
+
+    def __init__(self, particles: Particles, box, boundary, support: float, expected: float):
+        self.p, self.dim, self.support = particles, particles.dim, support
+        self.lo, self.hi, self.size, self.periodic = box.lo, box.hi, box.size, boundary.periodic
+        self.finder = finder(box, boundary.periodic, tuple((image, code_of(image)) for image in boundary.images))
+        self.cells = Cells(particles, box, boundary.periodic)
+        n = particles.n
+        self.width = LANES * int(np.ceil(1.6 * expected / LANES))
+        self.near, self.count = ti.ndarray(ti.i32, (n, self.width)), ti.ndarray(ti.i32, n)
+        self.at = ti.ndarray(ti.f32, (self.dim + 1, n + BLOCK))  # compact copies of x0 and of the squared radius
+        self.bit = ti.ndarray(ti.i32, BLOCK)
+        self.bit.from_numpy((np.uint32(1) << np.arange(BLOCK, dtype=np.uint32)).view(np.int32))
+
+    @ti.kernel
+    def compact(self, at: ti.types.ndarray(dtype=ti.f32, ndim=2), cell_of: ti.types.ndarray(dtype=ti.i32, ndim=1),
+                reach: float, grid: ti.types.ndarray(ndim=2), shape: ti.types.ndarray(dtype=ti.i32, ndim=1),
+                roundoff: float):  # fmt: skip
+        """Positions from the grid's corner, squared radii and cells, in the order of memory."""
+        for n in range(self.p.n):
+            for a in ti.static(range(self.dim)):
+                at[a, n] = ti.cast(self.p.state[n].x0[a] - grid[0, a], ti.f32)
+            at[self.dim, n] = ti.cast((reach * self.p.state[n].h0 + roundoff) ** 2, ti.f32)
+            cell_of[n] = self.cells.cell(n, grid, shape)
 
     def list(self, pad: float) -> None:
         """Rows for the noted positions in the present memory order; widened until no neighbour is dropped."""
-        self.compact(self.at, pad, self.cells.grid.astype(self.p.word), 4e-7 * self.cells.longest)
+        cells, roundoff = self.cells, ROUNDOFF * self.cells.longest
+        self.compact(self.at, cells.cell_of, pad * self.support, cells.grid, cells.shape, roundoff)
         most = self.fill_rows()
         if most > self.width and 4.0 * self.p.n * most > MOST_BYTES:
             raise RunError(
@@ -188,6 +213,7 @@ class Search:
 
     def fill_rows(self) -> int:
         """All rows; returns the largest count."""
-        grid, shape = self.cells.grid.astype(self.p.word), self.cells.shape
-        narrow = any(shape[a] < 3 and self.periodic[a] for a in range(self.dim))
-        return self.fill(self.near, self.count, self.cells.first, self.at, self.bit, grid, shape, narrow)
+        cells = self.cells
+        narrow = any(cells.shape[a] < 3 and self.periodic[a] for a in range(self.dim))
+        arrays = self.near, self.count, cells.first, self.at, self.bit, cells.cell_of
+        return self.finder.fill(*arrays, cells.grid, cells.shape, narrow)

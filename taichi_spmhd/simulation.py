@@ -59,7 +59,6 @@ class Simulation:
         p.companions.append((p.old, p.rate))
         self.sliding = None if spare is None else Sliding((*parts, scene.stepper), p.tree)
         p.finish()
-        p.ghost()
         self.neighbours = Neighbours(p, scene.box, scene.boundary, kernel)
         # a live run is compiled again and again: one lane compiles five times faster than eight
         self.pairs = Pairs(p, scene.box, scene.boundary, lanes() if spare is None else 1)

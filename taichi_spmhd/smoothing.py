@@ -58,39 +58,74 @@ class Density:
         carried to the new h, sum = wanted and slope - s bend. In a run one pass over the neighbours is then enough.
         """
         h, goal, most = i.h, self.wanted(i), GROWTH * i.h0
-        total, slope, step, done = ti.cast(0.0, float), ti.cast(0.0, float), ti.cast(0.0, float), 0
+        slope, done = ti.cast(0.0, float), 0
         for _ in range(NEWTON):
             sums = self.sums(i, h, rows, n, near)
             step = (goal - sums.sum) / ti.max(self.dim * sums.sum - sums.slope, 0.05 * goal)
             if step * step < 0.1 * self.tolerance and h * (1.0 + step) < most:
-                h, done, total, slope = h * (1.0 + step), 1, goal, sums.slope - step * sums.bend
+                h, done, slope = h * (1.0 + step), 1, sums.slope - step * sums.bend
                 break
             h *= ti.min(ti.max(1.0 + step, 0.8), 1.2)
             if h >= most:
-                h, done = most, 1
                 break
-        if done == 0:
-            h = self.bisect(i, LEAST * i.h0, most, rows, n, near)
-        return h, done, total, slope
+        return h, done, slope
+
+    @ti.func
+    def write(self, n, i, h, total, slope):
+        """h and what follows from it and its sums."""
+        hinv = 1.0 / h
+        norm = ti.static(self.kernel.sigma) * hinv**self.dim
+        rho = self.choice.rho(i, norm * total)
+        Omega = 1.0 - slope / (self.dim * total)
+        self.p.state[n].h, self.p.state[n].hinv = h, hinv
+        self.p.state[n].rho, self.p.state[n].Omega = rho, Omega
+        self.p.state[n].g = norm * hinv / (Omega * rho * rho)
+
+    @ti.func
+    def shrunk(self, i, h):
+        """1 for an h smaller than a solve may go."""
+        return ti.cast(h < 1.01 * LEAST * i.h0, ti.i32)
 
     @ti.kernel
-    def solve(
+    def newton(
         self, near: ti.types.ndarray(dtype=ti.i32, ndim=2), rows: ti.types.ndarray(dtype=ti.i32, ndim=1)
     ) -> ti.i32:
-        """h, rho, Omega of all; returns 1 if some h is smaller than a solve may go: then build and solve again."""
-        unresolved = 0
+        """h, rho, Omega of all; bit 0: some h is too small, bit 1: some h is not found, its particle has Omega = 0."""
+        said = 0
         for n in range(self.p.n):
             i = self.pairs.mine(n, ("x", "m", "h", "h0"))
-            h, done, total, slope = self.iterate(i, rows[n], n, near)
-            if done == 0 or h >= GROWTH * i.h0:
+            h, done, slope = self.iterate(i, rows[n], n, near)
+            if done == 1:
+                self.write(n, i, h, self.wanted(i), slope)
+            else:
+                self.p.state[n].h = ti.min(h, GROWTH * i.h0)
+                self.p.state[n].Omega = 0.0
+            ti.atomic_or(said, ti.select(done == 1, self.shrunk(i, h), 2))
+        return said
+
+    @ti.kernel
+    def rescue(
+        self, near: ti.types.ndarray(dtype=ti.i32, ndim=2), rows: ti.types.ndarray(dtype=ti.i32, ndim=1)
+    ) -> ti.i32:
+        """h by bisection, or the most it may grow, where Newton's method left Omega = 0; 1 if some h is too small.
+
+        A kernel of its own: it is hardly ever needed, and two more sums make `newton` three times as long to compile.
+        """
+        said = 0
+        for n in range(self.p.n):
+            if self.p.state[n].Omega == 0.0:
+                i = self.pairs.mine(n, ("x", "m", "h", "h0"))
+                h, most = i.h, GROWTH * i.h0
+                if h < most:
+                    h = self.bisect(i, LEAST * i.h0, most, rows[n], n, near)
                 sums = self.sums(i, h, rows[n], n, near)
-                total, slope = sums.sum, sums.slope
-            ti.atomic_or(unresolved, ti.cast(h < 1.01 * LEAST * i.h0, ti.i32))
-            hinv = 1.0 / h
-            norm = ti.static(self.kernel.sigma) * hinv**self.dim
-            rho = self.choice.rho(i, norm * total)
-            Omega = 1.0 - slope / (self.dim * total)
-            self.p.state[n].h, self.p.state[n].hinv = h, hinv
-            self.p.state[n].rho, self.p.state[n].Omega = rho, Omega
-            self.p.state[n].g = norm * hinv / (Omega * rho * rho)
-        return unresolved
+                self.write(n, i, h, sums.sum, sums.slope)
+                ti.atomic_or(said, self.shrunk(i, h))
+        return said
+
+    def solve(self, near, rows) -> int:
+        """h, rho, Omega of all; returns 1 if some h is smaller than a solve may go: then build and solve again."""
+        said = self.newton(near, rows)
+        if said & 2:
+            said |= self.rescue(near, rows)
+        return said & 1

@@ -24,7 +24,6 @@ def test_600_sets_of_fields_and_20_simulations_in_one_process_leave_room_for_one
     for _ in range(MANY):
         particles = Particles(n, 2, members, evolved)
         particles.finish()
-        particles.ghost()  # a tree destroyed before anybody has used it crashes Taichi 1.7.4
         particles.close()
     for _ in range(20):
         with Simulation(still_gas()):

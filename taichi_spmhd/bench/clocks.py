@@ -11,7 +11,7 @@ def calls(sim) -> list[tuple[str, object, str]]:
     """(phase, owner, method) of everything a step calls. list contains the check whether the list still holds."""
     near, cells, rhs, advance = sim.neighbours, sim.neighbours.cells, sim.rhs, sim.advance
     return [
-        *(("sort", cells, name) for name in ("wrap", "bin", "sort")),
+        *(("sort", cells, name) for name in ("bin", "sort")),
         *(("list", near, name) for name in ("list", "slack")),
         ("density", sim.density, "solve"),
         *(("rates", rhs, name) for name in ("close", "gather", "rates")),
