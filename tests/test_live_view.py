@@ -7,7 +7,7 @@ import pytest
 
 from taichi_spmhd import Picture, Simulation, exact, load_scene
 from taichi_spmhd.live import view
-from taichi_spmhd.live.lines import draw_lines, potential, solved
+from taichi_spmhd.live.lines import draw_lines, filled, potential, solved
 
 SIZE = (160, 160)
 B0 = 1 / np.sqrt(4 * np.pi)  # of the vortex
@@ -44,6 +44,18 @@ def test_the_curl_of_the_potential_is_the_field(periodic):
     found = solved([f(x) * dg(y) + 0.3, -df(x) * g(y) - 0.2], (1.0, 1.0), periodic).T
     # exact for periods; a mirrored field is only smooth to first order at the edge: measured 0.3 %
     assert np.abs((found - found.mean()) - (A - A.mean())).max() < 0.01 * np.ptp(A)
+
+
+@pytest.mark.parametrize("periodic", [True, False])
+def test_holes_are_filled_from_across_an_edge_only_where_there_is_a_period(periodic):
+    """A hole at the left edge: 1 to its right, 5 at the right edge."""
+    value = np.ones((8, 8))
+    value[-1] = 5.0
+    below = np.ones((8, 8))
+    below[0] = 0.0  # the whole column of cells: only its right side and, across a period, the right edge are near
+    made = filled(value * below, below, (periodic, True))
+    assert made[0] == pytest.approx((1.0 + 5.0) / 2 if periodic else 1.0)
+    assert np.array_equal(made[1:], value[1:])
 
 
 def test_lines_run_along_the_field(vortex):

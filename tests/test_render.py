@@ -10,6 +10,7 @@ from taichi_spmhd import runtime
 from taichi_spmhd.box import Box
 from taichi_spmhd.errors import InputError
 from taichi_spmhd.picture import Picture
+from taichi_spmhd.terms import Pressure
 
 UNIT = Box((0.0, 0.0), (1.0, 1.0))
 ALFVEN = Box((0.0, 0.0), (2 / np.sqrt(3), 2.0))
@@ -434,10 +435,27 @@ def test_wrong_members_and_kinds_are_refused():
         Panels(["a", "b"], UNIT, Picture()).frame(0.0, {"a": column(sim["x"], sim["rho"], 0.3)})
 
 
+def test_the_gap_is_drawn_like_a_member(disordered):
+    from taichi_spmhd.render import columns
+
+    sim = disordered(Pressure())
+    picture = Picture("gap")
+    apart = sim["x"][:, None] - sim["x"]
+    distance = np.linalg.norm(apart - np.rint(apart / sim.scene.box.size) * sim.scene.box.size, axis=2)
+    np.fill_diagonal(distance, np.inf)
+    spacings = distance.min(axis=1) * np.sqrt(sim["rho"] / sim["m"])
+    assert columns(sim, picture)["values"] == pytest.approx(spacings, rel=1e-12)  # both f64
+    read = columns(sim, picture, sim.columns())  # members that were read before
+    assert np.array_equal(read["values"], columns(sim, picture)["values"])
+    with pytest.raises(InputError, match="scalar"):
+        columns(sim, Picture("gap", axis=0))
+
+
 def test_symbols_and_colour_maps_follow_what_is_shown():
     assert [Picture("B", axis=2).symbol, Picture("v").symbol, Picture("rho").symbol] == ["B_z", "|v|", "rho"]
     assert Picture("div_B").symbol == "h|div B|/|B|"
     assert Picture("B", axis=2).colour_map((-0.12, 0.12)) == "RdBu_r"
     assert Picture("rho").colour_map((0, 1)) == "viridis"
     assert Picture("div_B").colour_map((1e-4, 1)) == "inferno"
+    assert Picture("gap").symbol == "gap / spacing" and Picture("gap").colour_map((0, 1.2)) == "plasma_r"
     assert Picture("rho", colours="cividis").colour_map((-1, 1)) == "cividis"

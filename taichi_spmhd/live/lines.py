@@ -47,25 +47,35 @@ def deposited(sim, columns: dict, values: np.ndarray, shape: tuple[int, int]) ->
     cells, weights, count = np.concatenate(cells), np.concatenate(weights), shape[0] * shape[1]
     below = np.bincount(cells, weights, count).reshape(shape)
     sums = [np.bincount(cells, weights * np.tile(values[:, a], 4), count).reshape(shape) for a in (0, 1)]
-    return [filled(above, below) for above in sums]
+    return [filled(above, below, periodic) for above in sums]
 
 
-def filled(above: np.ndarray, below: np.ndarray) -> np.ndarray:
+def filled(above: np.ndarray, below: np.ndarray, periodic) -> np.ndarray:
     """above/below; holes are filled from their sides inwards."""
     for _ in range(max(above.shape)):
         holes = below <= 1e-9 * below.max()
         if not holes.any():
             break
-        shifts = [(1, 0), (-1, 0), (1, 1), (-1, 1)]
-        above = np.where(holes, sum(np.roll(above, *shift) for shift in shifts), above)
-        below = np.where(holes, sum(np.roll(below, *shift) for shift in shifts), below)
+        above = np.where(holes, beside(above, periodic), above)
+        below = np.where(holes, beside(below, periodic), below)
     return above / np.maximum(below, 1e-300)
+
+
+def beside(values: np.ndarray, periodic) -> np.ndarray:
+    """Sum over the four cells around each; beyond an edge without a period there is nothing."""
+    framed = np.pad(values, 1)
+    if periodic[0]:
+        framed[0, 1:-1], framed[-1, 1:-1] = values[-1], values[0]
+    if periodic[1]:
+        framed[1:-1, 0], framed[1:-1, -1] = values[:, -1], values[:, 0]
+    return framed[:-2, 1:-1] + framed[2:, 1:-1] + framed[1:-1, :-2] + framed[1:-1, 2:]
 
 
 def solved(field: list[np.ndarray], lengths, periodic) -> np.ndarray:
     """A_z (rows, columns) of B (columns, rows): by Fourier transform; an axis without a period is continued mirrored.
 
-    At a mirror in x, B_x changes its sign and B_y does not, so that A_z is even there.
+    A mirror in x leaves B_x = dA/dy and turns B_y = -dA/dx, so that A_z is even there: it asks for no wall, for of all
+    such A_z this one's curl is nearest to B.
     """
     mean = [part.mean() for part in field]
     bx, by = field[0] - mean[0], field[1] - mean[1]
