@@ -71,6 +71,14 @@ def test_lines_run_along_the_field(vortex):
     assert apart[under > 0.4].mean() < 0.6 * apart[under == 0].mean()
 
 
+def test_lines_are_seen_on_white_and_on_black(vortex):
+    A = potential(vortex, vortex.columns(), 64)
+    black, white = (np.full((256, 256, 3), tone, np.uint8) for tone in (0, 255))
+    lit, dimmed = draw_lines(black, A).astype(int), 255 - draw_lines(white, A).astype(int)
+    assert np.abs(lit - dimmed).max() <= 1  # the same lines, to the rounding of a tone
+    assert lit.max() > 100 and not black.any() and white.all()  # the pictures given stay as they are
+
+
 def test_a_field_out_of_the_plane_has_no_lines():
     (scene,) = load_scene("blast", nx=24).values()
     with Simulation(scene, spare=()) as sim:

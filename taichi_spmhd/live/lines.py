@@ -10,7 +10,8 @@ from PIL import Image
 
 GRID = 128  # points along the longer side
 LEVELS = 18  # lines across the range of A_z
-INK, STRENGTH = np.array([255, 255, 255], np.float32), 0.55
+INK, STRENGTH = np.array([0, 255], np.float32), 0.55  # on light ground, on dark ground
+LIGHT = 3 * 170  # red + green + blue from which white lines would be lost
 WIDTH, FLAT = 1.3, 1e-4  # of a line, in pixels to each side; levels a pixel where there is no line
 
 
@@ -106,6 +107,7 @@ def draw_lines(rgb: np.ndarray, A: np.ndarray | None) -> np.ndarray:
     apart = np.abs(turns - np.round(turns))  # in levels; over the slope: in pixels to the next line
     near = np.nonzero((apart < WIDTH * slope) & (slope > FLAT))
     cover = (STRENGTH * np.minimum(WIDTH - apart[near] / slope[near], 1.0))[:, None]
-    out = rgb.copy()
-    out[near] = (rgb[near] + cover * (INK - rgb[near])).astype(np.uint8)
+    out, ground = rgb.copy(), rgb[near]
+    ink = INK[(ground.sum(axis=1, dtype=np.int32) < LIGHT).astype(int)][:, None]
+    out[near] = (ground + cover * (ink - ground)).astype(np.uint8)
     return out
