@@ -81,6 +81,11 @@ def errs(ratio: float) -> str:
     return f"errs {max(ratio, 1 / ratio):.2g} times {'more' if ratio > 1 else 'less'}"
 
 
+def costs(ratio: float, first: str) -> str:
+    """costs 1.9 times cubic."""
+    return f"costs as much as {first}" if abs(log(ratio)) < 0.03 else f"costs {ratio:.2g} times {first}"
+
+
 def compared(rows: list[dict], name: str) -> list[str]:
     """Every value of a choice against its first: seconds and error, at the same everything else."""
     first, *others = dict.fromkeys(row["setting"][name] for row in rows if name in row["setting"])
@@ -89,7 +94,7 @@ def compared(rows: list[dict], name: str) -> list[str]:
         pairs = twins(rows, name, first, other)
         if pairs:
             cost, count = mean_ratio(pairs, "seconds"), f"{len(pairs)} pair{'s' if len(pairs) > 1 else ''} of settings"
-            out.append(f"{words(name, other)} costs {cost:.2g} times {words(name, first)} and "
+            out.append(f"{words(name, other)} {costs(cost, words(name, first))} and "
                        f"{errs(mean_ratio(pairs, 'error'))} ({count}).")  # fmt: skip
     return out
 
