@@ -5,6 +5,7 @@ Particle j is in the row of i if, at the build, r < pad * support * max(h_i, h_j
     support * h_i + d_i + max_j d_j <= pad * support * h0_i        for all i,
 
 d the distance moved and h0 the smoothing length since the build: then no pair within either support can be missing.
+While that is true of the inner ring, too (search.INNER for pad), only the beginning of each row is needed: `rows`.
 A wide pad is kept for many steps but makes every sum longer; `pad` follows the flow so that a list serves two steps or
 more. Rows end with index n (nobody, without mass) up to a whole number of vector lanes.
 """
@@ -15,7 +16,7 @@ from .boundary import LOWER, UPPER
 from .errors import RunError
 from .particles import Particles
 from .runtime import ti
-from .search import Search
+from .search import INNER, Search
 
 PADS = (1.04, 1.2)  # list radius over support, at least and at most
 STORY = ("builds", "age", "pad", "moved")
@@ -31,6 +32,7 @@ class Neighbours(Search):
         self.walls = [{image[a] for image in boundary.images} for a in range(3)]
         self.half = min((room for a in range(self.dim) if (room := boundary.room(a, box.size[a]))), default=1e30)
         self.builds, self.age, self.pad, self.moved = 0, 0, PADS[0], 0.0  # age: evaluations since the build
+        self.rows = self.count
 
     def build(self) -> None:
         """Note the positions, sort the particles into cells, write the rows."""
@@ -39,7 +41,7 @@ class Neighbours(Search):
         self.fits()
         self.cells.sort()
         self.list(self.pad)
-        self.builds, self.age = self.builds + 1, 0
+        self.builds, self.age, self.rows = self.builds + 1, 0, self.inner
 
     def fits(self) -> None:
         """Raises RunError when a pair would meet twice, once through the period or a wall: one image is summed."""
@@ -73,27 +75,31 @@ class Neighbours(Search):
         """The list as it was when positions x0 were noted: for a state read from disk, already in memory order."""
         self.cells.bin(self.pad * self.support, fold=False)
         self.list(self.pad)
+        self.rows = self.count
 
     @ti.kernel
-    def slack(self, pad: float) -> ti.types.vector(2, ti.f32):
-        """min_i ( pad R h0_i - R h_i - d_i ) and max_j d_j / R h_j: how much room is left, and how far particles moved.
+    def slack(self, pad: float, ring: float) -> ti.types.vector(3, ti.f32):
+        """min_i ( pad R h0_i - R h_i - d_i ), how much room is left; the same for the ring; max_j d_j / R h_j.
 
         No room either when a support has outgrown half the box: the build that follows says so.
         """
-        room, moved, share = ti.cast(1e30, float), ti.cast(0.0, float), ti.cast(0.0, float)
-        fits = ti.cast(1e30, float)
+        room, inner = ti.cast(1e30, float), ti.cast(1e30, float)
+        moved, share, fits = ti.cast(0.0, float), ti.cast(0.0, float), ti.cast(1e30, float)
         for n in range(self.p.n):
             s = self.p.state[n]
             d = (s.x - s.x0).norm()
             ti.atomic_min(room, self.support * (pad * s.h0 - s.h) - d)
+            ti.atomic_min(inner, self.support * (ring * s.h0 - s.h) - d)
             ti.atomic_max(moved, d)
             ti.atomic_max(share, d * s.hinv)
             ti.atomic_min(fits, self.half * (1.0 + 1e-6) - self.support * s.h)
-        return ti.Vector([ti.cast(ti.min(room - moved, fits), ti.f32), ti.cast(share / self.support, ti.f32)])
+        room, inner = ti.min(room - moved, fits), ti.min(inner - moved, fits)
+        return ti.Vector([ti.cast(room, ti.f32), ti.cast(inner, ti.f32), ti.cast(share / self.support, ti.f32)])
 
     def holds(self) -> bool:
-        """Whether the list is complete for the present positions and smoothing lengths."""
-        room, self.moved = self.slack(self.pad)
+        """Whether the list is complete for the present positions and smoothing lengths; rows: as much as is needed."""
+        room, inner, self.moved = self.slack(self.pad, min(INNER, self.pad))
+        self.rows = self.inner if inner >= 0.0 else self.count
         return room >= 0.0
 
     def follow(self) -> None:
@@ -104,4 +110,4 @@ class Neighbours(Search):
     @property
     def bytes_each(self) -> int:
         """Bytes of the list a particle."""
-        return 4 * (self.width + 1 + self.dim + 1 + 3)  # entries, their count, compact copies; cell, index and order
+        return 4 * (self.width + 2 + self.dim + 1 + 3)  # entries, how many, compact copies; cell, index and order

@@ -66,8 +66,8 @@ class RHS:
         self.close(t, dt)
         self.moment.find()
         if self.keys["gather"]:
-            self.gather(self.near.near, self.near.count, t, dt, self.moment.most)
-        return self.rates(self.near.near, self.near.count, t, dt, self.moment.most)
+            self.gather(self.near.near, self.near.rows, t, dt, self.moment.most)
+        return self.rates(self.near.near, self.near.rows, t, dt, self.moment.most)
 
     def neighbourhood(self) -> None:
         """A complete list, and density and h that belong to the present positions."""
@@ -75,10 +75,12 @@ class RHS:
             self.near.build()
         self.near.age += 1
         for _ in range(MOST_BUILDS):
-            unresolved = self.density.solve(self.near.near, self.near.count)
-            if self.near.holds() and not unresolved:
+            rows = self.near.rows
+            unresolved = self.density.solve(self.near.near, rows)
+            if unresolved or not self.near.holds():
+                self.near.build()
+            elif self.near.rows is rows or self.near.rows is self.near.inner:  # else h outgrew what was summed
                 return
-            self.near.build()
         raise RunError(
             "density: no smoothing length fits; a particle has lost all its neighbours, or two are on one spot"
         )

@@ -17,6 +17,7 @@ from .runtime import ti
 
 BLOCK = 32  # candidates tested together
 LANES = 8  # rows are filled up to a multiple of this
+INNER = 1.02  # radius over support of the inner ring, which comes first in a row
 MOST_BYTES = 8e9  # of a list
 IMAGE = 26  # bits of an entry that hold the particle; above them, per axis, which wall it is mirrored at
 
@@ -50,22 +51,30 @@ class Finder:
 
     @ti.func
     def scan(self, n, first, end, here, image, found, near: ti.template(), at: ti.template(), bit: ti.template(),
-             narrow: ti.template()):  # fmt: skip
-        """Append those of the particles [first, end), at most BLOCK, that n may touch; returns the new count."""
-        hit, mine = 0, at[self.dim, n]
+             share, narrow: ti.template()):  # fmt: skip
+        """Append those of the particles [first, end), at most BLOCK, that n may touch: the inner ones from the left of
+        the row, the others from its right; returns the new counts of both.
+        """
+        hit, inside, mine = 0, 0, at[self.dim, n]
         for b in range(BLOCK):
             r2 = ti.cast(0.0, ti.f32)
             for a in ti.static(range(self.dim)):
                 d = self.separation(here[a], at[a, first + b], a, narrow)
                 r2 += d * d
-            hit += ti.select(r2 < ti.max(mine, at[self.dim, first + b]), bit[b], 0)
+            reach = ti.max(mine, at[self.dim, first + b])
+            hit += ti.select(r2 < reach, bit[b], 0)
+            inside += ti.select(r2 < share * reach, bit[b], 0)
         if end - first < BLOCK:
             hit &= (1 << (end - first)) - 1
+        last = near.shape[1] - 1
         while hit != 0:
             low = hit & (-hit)
-            near[n, ti.min(found, near.shape[1] - 1)] = (first + 31 - ti.math.clz(low)) | image
+            ring = ti.cast((inside & low) != 0, ti.i32)
+            place = ti.select(ring == 1, ti.min(found[0], last), ti.max(last - found[1], 0))
+            near[n, place] = (first + 31 - ti.math.clz(low)) | image
             hit ^= low
-            found += 1
+            found[0] += ring
+            found[1] += 1 - ring
         return found
 
     @ti.func
@@ -79,11 +88,11 @@ class Finder:
 
     @ti.func
     def strip(self, n, base, low, cells, here, image, found, first: ti.template(), near: ti.template(),
-              at: ti.template(), bit: ti.template(), narrow: ti.template()):  # fmt: skip
+              at: ti.template(), bit: ti.template(), share, narrow: ti.template()):  # fmt: skip
         """Scan the particles of `cells` neighbouring cells of a row: they are contiguous in memory."""
         start, end = first[base + low], first[base + low + cells]
         while start < end:
-            found = self.scan(n, start, end, here, image, found, near, at, bit, narrow)
+            found = self.scan(n, start, end, here, image, found, near, at, bit, share, narrow)
             start += BLOCK
         return found
 
@@ -97,7 +106,7 @@ class Finder:
 
     @ti.func
     def around(self, n, here, c, image, found, shape: ti.template(), first: ti.template(), near: ti.template(),
-               at: ti.template(), bit: ti.template(), narrow: ti.template()):  # fmt: skip
+               at: ti.template(), bit: ti.template(), share, narrow: ti.template()):  # fmt: skip
         """Scan the cells around cell c, rows of them at a time."""
         x, y, z = self.row(0, c[0], shape[0]), ti.Vector([0, 1]), ti.Vector([0, 1])
         if ti.static(self.dim > 1):
@@ -115,22 +124,27 @@ class Finder:
                 cz += ti.select(cz < 0, shape[2], ti.select(cz >= shape[2], -shape[2], 0))
                 base = (cz * shape[1] + cy) * shape[0]
                 low, end = ti.max(x[0], 0), ti.min(x[0] + x[1], shape[0])
-                found = self.strip(n, base, low, end - low, there, image, found, first, near, at, bit, narrow)
+                found = self.strip(n, base, low, end - low, there, image, found, first, near, at, bit, share, narrow)
                 if x[0] < 0:
                     edge = self.shifted(there, 0, -1, shape[0], narrow)
-                    found = self.strip(n, base, shape[0] - 1, 1, edge, image, found, first, near, at, bit, narrow)
+                    found = self.strip(
+                        n, base, shape[0] - 1, 1, edge, image, found, first, near, at, bit, share, narrow
+                    )
                 if x[0] + x[1] > shape[0]:
                     edge = self.shifted(there, 0, shape[0], shape[0], narrow)
-                    found = self.strip(n, base, 0, 1, edge, image, found, first, near, at, bit, narrow)
+                    found = self.strip(n, base, 0, 1, edge, image, found, first, near, at, bit, share, narrow)
         return found
 
     @ti.kernel
     def fill(self, near: ti.types.ndarray(dtype=ti.i32, ndim=2), count: ti.types.ndarray(dtype=ti.i32, ndim=1),
-             first: ti.types.ndarray(dtype=ti.i32, ndim=1), at: ti.types.ndarray(dtype=ti.f32, ndim=2),
-             bit: ti.types.ndarray(dtype=ti.i32, ndim=1), cell_of: ti.types.ndarray(dtype=ti.i32, ndim=1),
-             grid: ti.types.ndarray(ndim=2), shape: ti.types.ndarray(dtype=ti.i32, ndim=1),
-             narrow: ti.template()) -> ti.i32:  # fmt: skip
-        """Write all rows; returns the largest count, which may exceed the width: then the rows are of no use."""
+             inner: ti.types.ndarray(dtype=ti.i32, ndim=1), first: ti.types.ndarray(dtype=ti.i32, ndim=1),
+             at: ti.types.ndarray(dtype=ti.f32, ndim=2), bit: ti.types.ndarray(dtype=ti.i32, ndim=1), share: ti.f32,
+             cell_of: ti.types.ndarray(dtype=ti.i32, ndim=1), grid: ti.types.ndarray(ndim=2),
+             shape: ti.types.ndarray(dtype=ti.i32, ndim=1), narrow: ti.template()) -> ti.i32:  # fmt: skip
+        """Write all rows; returns the largest count, which may exceed the width: then the rows are of no use.
+
+        share: of a squared radius, that of the inner ring.
+        """
         most = 0
         for n in range(count.shape[0]):
             here = ti.Vector.zero(ti.f32, 3)
@@ -138,21 +152,30 @@ class Finder:
                 here[a] = at[a, n]
             row = cell_of[n] // shape[0]
             c = ti.Vector([cell_of[n] - row * shape[0], row % shape[1], row // shape[1]])
-            found = self.around(n, here, c, 0, 0, shape, first, near, at, bit, narrow)
+            found = self.around(n, here, c, 0, ti.Vector([0, 0]), shape, first, near, at, bit, share, narrow)
             for image, code in ti.static(self.images):
-                found = self.mirrored(n, here, image, code, found, shape, first, near, at, bit, grid, narrow)
-            rest = found
-            while rest % LANES != 0 and rest < near.shape[1]:
-                near[n, rest] = count.shape[0]
-                rest += 1
-            count[n] = rest
-            ti.atomic_max(most, found)
+                found = self.mirrored(n, here, image, code, found, shape, first, near, at, bit, share, grid, narrow)
+            count[n] = self.close_up(n, found, near, count.shape[0])
+            inner[n] = ti.min(count[n], (found[0] + LANES - 1) // LANES * LANES)
+            ti.atomic_max(most, found[0] + found[1])
         return most
+
+    @ti.func
+    def close_up(self, n, found, near: ti.template(), nobody):
+        """Move the outer entries beside the inner ones and fill up with nobody; returns the length of the row."""
+        width, rest = near.shape[1], found[0] + found[1]
+        if rest <= width:
+            for k in range(found[1]):
+                near[n, found[0] + k] = near[n, width - found[1] + k]
+        while rest % LANES != 0 and rest < width:
+            near[n, rest] = nobody
+            rest += 1
+        return rest
 
     @ti.func
     def mirrored(self, n, here, image: ti.template(), code: ti.template(), found, shape: ti.template(),
                  first: ti.template(), near: ti.template(), at: ti.template(), bit: ti.template(),
-                 grid: ti.template(), narrow: ti.template()):  # fmt: skip
+                 share, grid: ti.template(), narrow: ti.template()):  # fmt: skip
         """Neighbours behind walls are those of the mirrored particle: the entry remembers the walls."""
         there, c = here, ti.Vector.zero(ti.i32, 3)
         for a in ti.static(range(self.dim)):
@@ -160,7 +183,7 @@ class Finder:
                 wall = self.lo[a] if ti.static(image[a] == LOWER) else self.hi[a]
                 there[a] = ti.cast(2.0 * (wall - grid[0, a]), ti.f32) - here[a]
             c[a] = ti.min(ti.max(ti.cast(ti.floor(there[a] * ti.cast(grid[1, a], ti.f32)), ti.i32), 0), shape[a] - 1)
-        return self.around(n, there, c, code, found, shape, first, near, at, bit, narrow)
+        return self.around(n, there, c, code, found, shape, first, near, at, bit, share, narrow)
 
 
 @cache
@@ -171,7 +194,10 @@ def finder(box, periodic: tuple, images: tuple) -> Finder:
 
 @ti.data_oriented
 class Search:
-    """Fills `near` (n, width) and `count` (n,) with the particles within a radius around the noted positions x0."""
+    """Fills `near` (n, width) and `count` (n,) with the particles within a radius around the noted positions x0.
+
+    Those within INNER supports come first, `inner` (n,) of them in whole lanes: all that is needed while they hold.
+    """
 
     def __init__(self, particles: Particles, box, boundary, support: float, expected: float):
         self.p, self.dim, self.support = particles, particles.dim, support
@@ -181,6 +207,7 @@ class Search:
         n = particles.n
         self.width = LANES * int(np.ceil(1.6 * expected / LANES))
         self.near, self.count = ti.ndarray(ti.i32, (n, self.width)), ti.ndarray(ti.i32, n)
+        self.inner = ti.ndarray(ti.i32, n)
         self.at = ti.ndarray(ti.f32, (self.dim + 1, n + BLOCK))  # compact copies of x0 and of the squared radius
         self.bit = ti.ndarray(ti.i32, BLOCK)
         self.bit.from_numpy((np.uint32(1) << np.arange(BLOCK, dtype=np.uint32)).view(np.int32))
@@ -200,7 +227,8 @@ class Search:
         """Rows for the noted positions in the present memory order; widened until no neighbour is dropped."""
         cells, roundoff = self.cells, ROUNDOFF * self.cells.longest
         self.compact(self.at, cells.cell_of, pad * self.support, cells.grid, cells.shape, roundoff)
-        most = self.fill_rows()
+        share = (INNER / pad) ** 2
+        most = self.fill_rows(share)
         if most > self.width and 4.0 * self.p.n * most > MOST_BYTES:
             raise RunError(
                 f"neighbours: a particle has {most} of them, a list of {4e-9 * self.p.n * most:.0f} GB; "
@@ -209,11 +237,11 @@ class Search:
         if most > self.width:
             self.width = LANES * int(np.ceil(1.25 * most / LANES))
             self.near = ti.ndarray(ti.i32, (self.p.n, self.width))
-            self.fill_rows()
+            self.fill_rows(share)
 
-    def fill_rows(self) -> int:
+    def fill_rows(self, share: float) -> int:
         """All rows; returns the largest count."""
         cells = self.cells
         narrow = any(cells.shape[a] < 3 and self.periodic[a] for a in range(self.dim))
-        arrays = self.near, self.count, cells.first, self.at, self.bit, cells.cell_of
-        return self.finder.fill(*arrays, cells.grid, cells.shape, narrow)
+        rows, grid = (self.near, self.count, self.inner), (cells.cell_of, cells.grid, cells.shape)
+        return self.finder.fill(*rows, cells.first, self.at, self.bit, share, *grid, narrow)
