@@ -5,9 +5,10 @@ from ...outputs.comparison import row as line
 from .sums import CLEAR
 
 NOTE = (
-    "ms: of a step, the quickest of {rounds} interleaved rounds of {steps} steps each; +- is how far the middle round "
-    "was from it. A term's price is what a step of the same scene without it saves; bytes are those of its members, a "
-    "particle. The list one after the other adds the terms in the scene's order. Compiling is not in it."
+    "ms: of a step, the quickest of {rounds} interleaved rounds of {steps} steps each; +- is how far the next quickest "
+    "was from it, of the scene with the term or without, whichever was more. A term's price is what a step of the same "
+    "scene without it saves; bytes are those of its members, a particle. The list one after the other adds the terms "
+    "in the scene's order. Compiling is not in it."
 )
 
 
@@ -34,7 +35,8 @@ def term_cells(one: dict) -> list[str]:
     """A term; one that cannot be taken away says why."""
     if one["ms"] is None:
         return [one["name"], "", "", "", "", f"cannot go alone: {one['reason'].split(':')[0]}", ""]
-    price = f"{one['ms']:+.2f}" if abs(one["share"]) >= CLEAR else "0 within the spread"
+    clear = abs(one["share"]) >= CLEAR and abs(one["ms"]) > one["spread_ms"]
+    price = f"{one['ms']:+.2f}" if clear else f"0 within the spread ({one['ms']:+.2f})"
     code = "" if one["instructions"] is None else f"{one['instructions']:+d}"
     share = f"{100 * one['share']:+.0f} %"
     return [one["name"], price, f"{one['spread_ms']:.2f}", share, f"{one['bytes']:+d}", " ".join(one["members"]), code]

@@ -1,19 +1,17 @@
 """Prices from timings: differences of minima, what they add up to, which loops are vectorised."""
 
-import statistics
-
 from ...bench.clocks import PHASES
 from .code import VECTORISED
 from .entries import Entry
 
-CLEAR = 0.02  # of the whole: a smaller difference is not told apart from nothing
+CLEAR = 0.02  # of the whole: a smaller difference, or one within the spread, is not told apart from nothing
 
 
 def best(results: list[dict]) -> dict:
-    """The quickest round: what others take away from it is least; spread: how far the middle one was from it."""
-    quickest = min(results, key=lambda result: result["ms"])
-    middle = statistics.median(result["ms"] for result in results)
-    return {**quickest, "spread": middle / quickest["ms"] - 1, "rounds": len(results)}
+    """The quickest round: what others take away from it is least; spread: how far the next one was from it."""
+    quickest, *others = sorted(results, key=lambda result: result["ms"])
+    spread = others[0]["ms"] / quickest["ms"] - 1 if others else 0.0
+    return {**quickest, "spread": spread, "rounds": len(results)}
 
 
 def prices(found: dict[Entry, list[dict]]) -> dict:
