@@ -26,7 +26,7 @@ def result(ms: float, **more) -> dict:
 def listed(tmp_path_factory):
     """The list of a small shock tube in f64: (folder, prices.json)."""
     out = tmp_path_factory.mktemp("prices")
-    words = ("--set", "nx=225", "--effects", "--vary", "precision=f64", "--repeat", "2", "--threads", "2")
+    words = ("--set", "nx=225", "--effects", "--vary", "precision=f64", "--repeat", "7", "--threads", "2")
     assert spmhd("cost", "sod", *words, "--out", str(out), "--quiet") == 0
     return out, json.loads((out / "prices.json").read_text())
 
@@ -92,13 +92,10 @@ def test_a_list_has_a_line_for_every_term_and_its_bytes_are_those_of_its_members
 
 
 def test_heun_costs_about_two_evaluations_of_the_leapfrog(listed):
-    """Two evaluations of rates and density against one; the list is built once. Measured + 60 to + 100 %.
-
-    The bounds leave room for a machine whose speed changes by half from one round to the next.
-    """
+    """Two evaluations of rates and density against one; the list is built once. Measured + 60 to + 100 %."""
     (one,) = listed[1]["prices"].values()
     heun = next(choice for choice in one["choices"] if choice["name"] == "stepper heun")
-    assert 0.05 < heun["share"] < 2.2
+    assert 0.2 < heun["share"] < 1.6
 
 
 @pytest.mark.parametrize(
@@ -124,15 +121,8 @@ def test_only_what_is_listed_is_priced():
 
 @pytest.mark.slow
 def test_in_f32_the_parts_explain_the_whole(tmp_path):
-    """The first set and every other term's own price, within 15 %; measured 97 to 104 % (blast), minima of 7 rounds.
-
-    Three tries: on a shared machine whose speed changes by half within a minute one list was off by 15 %.
-    """
-    words = ("--set", "nx=64", "--effects", "--vary", "precision=f32", "--threads", "1", "--quiet")
-    off = []
-    while len(off) < 3 and not any(one < 0.15 for one in off):
-        folder = tmp_path / str(len(off))
-        assert spmhd("cost", "blast", *words, "--out", str(folder)) == 0
-        (one,) = json.loads((folder / "prices.json").read_text())["prices"].values()
-        off.append(abs(one["explained"] - 1))
-    assert min(off) < 0.15, off
+    """The first set and every other term's own price, within 15 %; measured 97 to 104 % (blast), minima of 7 rounds."""
+    words = ("--set", "nx=64", "--effects", "--vary", "precision=f32", "--threads", "1", "--repeat", "25", "--quiet")
+    assert spmhd("cost", "blast", *words, "--out", str(tmp_path)) == 0
+    (one,) = json.loads((tmp_path / "prices.json").read_text())["prices"].values()
+    assert abs(one["explained"] - 1) < 0.15

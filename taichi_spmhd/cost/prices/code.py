@@ -1,12 +1,13 @@
 """The compiled rates kernel of an entry: how many instructions it has, and how much of its arithmetic is vectorised.
 
 Taichi writes the code of every kernel it compiles where measure.written_to says; kernels must not come from its cache
-then. Instructions are counted as Taichi hands them to LLVM, lane by lane where lanes are
-written out: LLVM unrolls a small loop more often than a large one, so what it returns may be longer with fewer terms.
-Whether the loop is vectorised can only be seen in what LLVM returns.
+then. Instructions are counted as Taichi hands them to LLVM, lane by lane where lanes are written out: LLVM unrolls a
+small loop more often than a large one, so what it returns may be longer with fewer terms. Whether the loop is
+vectorised can only be seen in what LLVM returns.
 """
 
 import re
+from functools import cache
 from pathlib import Path
 
 ARITHMETIC = re.compile(r"= f(?:add|sub|mul|div|neg) [a-z ]*(?:<(\d+) x )?")
@@ -25,6 +26,7 @@ def rates(folder: Path, pattern: str) -> str:
     return max((text for text in texts if "define void @rates_" in text), key=len, default="")
 
 
+@cache  # every round of an entry asks
 def code(folder: Path) -> dict:
     """{"instructions", "vector_share"} of the rates kernel written to a folder; {} where there is none (a GPU)."""
     given, made = rates(folder, GIVEN), rates(folder, MADE)
