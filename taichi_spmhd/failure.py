@@ -48,24 +48,24 @@ def loudest(sim, memory: int) -> str:
         if term.has("pair") or term.has("local") or term.has("after"):
             out = np.zeros(1, sim.particles.word)
             near, most = sim.neighbours, sim.rhs.moment.most
-            share(sim.rhs, term, memory, sim.time + sim.dt, sim.dt, near.near, near.count, most, out)
+            share(sim.rhs, sim.one_by_one, term, memory, sim.time + sim.dt, sim.dt, near.near, near.count, most, out)
             shares[type(term).__name__] = np.inf if not np.isfinite(out[0]) else float(out[0])
     return max(shares, key=shares.get) if shares else "no term"
 
 
 @ti.kernel
-def share(rhs: ti.template(), term: ti.template(), n: ti.i32, t: float, dt: float,
+def share(rhs: ti.template(), pairs: ti.template(), term: ti.template(), n: ti.i32, t: float, dt: float,
           near: ti.types.ndarray(dtype=ti.i32, ndim=2), rows: ti.types.ndarray(dtype=ti.i32, ndim=1),
           most: ti.types.ndarray(ndim=1), out: ti.types.ndarray(ndim=1)):  # fmt: skip
     """What one term adds to the rates of one particle, summed in absolute value over the evolved members."""
     for _ in range(1):
         now = rhs.moment.now(t, dt, most)
-        i, sums = rhs.pairs.mine(n, rhs.looked), rhs.lanes.totals(rhs.totals)
+        i, sums = pairs.mine(n, rhs.looked), pairs.lanes.totals(rhs.totals)
         if ti.static(term.has("pair")):
-            for block in range(rows[n] // rhs.lanes.width):
-                j = rhs.pairs.theirs(near, n, block, rhs.looked)
+            for k in range(rows[n]):
+                j = pairs.theirs(near, n, k, rhs.looked)
                 sums.add(term.pair(i, j, rhs.weights(i, j), now), term)
-        total = rhs.lanes.summed(sums)
+        total = pairs.lanes.summed(sums)
         if ti.static(term.has("local")):
             add(total, term.local(rhs.p.state[n], now))
         if ti.static(term.has("after")):

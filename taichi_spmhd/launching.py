@@ -11,6 +11,8 @@ from types import MethodType
 
 import numpy as np
 
+from .wide import spell, whole
+
 MOST = 8  # launches of one kernel of one object, for as many sets of arrays
 NUMBERS = {float: (float, int, np.floating, np.integer), int: (int, np.integer)}
 NEEDED = ("ensure_compiled", "construct_kernel_ret", "launch_kernel")  # of Taichi's kernels, or nothing is changed
@@ -23,6 +25,7 @@ def quicken(taichi) -> None:
     plain = taichi.data_oriented
     if all(hasattr(kernel_impl.Kernel, name) for name in NEEDED):
         taichi.data_oriented = lambda kind: data_oriented(kind, plain)
+        spell(taichi)
 
 
 def data_oriented(kind: type, plain) -> type:
@@ -52,8 +55,10 @@ class Method:
         for launch in before:
             if launch.fits(given):
                 return launch(given)
-        out = self.kernel(owner, *given)
-        if launch := prepared(self.kernel, owner, given):
+        with whole(self.kernel):
+            out = self.kernel(owner, *given)
+            launch = prepared(self.kernel, owner, given)
+        if launch:
             self.launches[owner] = [launch, *(other for other in before if other.alive())][:MOST]
         return out
 

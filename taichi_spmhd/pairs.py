@@ -58,9 +58,8 @@ class Pairs:
 
     def mirror(self, j, a: int, side) -> None:
         """Replace neighbours behind walls of axis a by their mirror images."""
-        direct = ti.cast(side == 0, float)
-        wall = ti.cast(side == LOWER, float) * (2.0 * self.lo[a]) + ti.cast(side == UPPER, float) * (2.0 * self.hi[a])
-        sign = 2.0 * direct - 1.0
+        sign = ti.select(side == 0, 1.0, -1.0)
+        wall = ti.select(side == LOWER, 2.0 * self.lo[a], ti.select(side == UPPER, 2.0 * self.hi[a], 0.0))
         for name in ("x", *self.vectors):
             if name in j.__dict__:
                 parts = list(j.__dict__[name].parts)

@@ -36,6 +36,7 @@ class Particles:
                 self.width += components(kind, dim)
         self.word = np.float64 if ti.lang.impl.get_runtime().default_fp == ti.f64 else np.float32
         self.companions: list = []  # (field, spare) pairs that follow the state's order
+        self.summed = 0  # columns of the rows that neighbour sums are left in (sums.py)
 
     def place(self, kind, size: int | None = None):
         """A field of a struct type, one record a particle unless a size is given, in this simulation's tree."""
@@ -56,14 +57,14 @@ class Particles:
 
     @property
     def bytes_each(self) -> int:
-        """Bytes of memory a particle, permutation buffers and rates included, the neighbour list not."""
+        """Bytes of memory a particle: state and permutation buffers, rates, neighbour sums; the neighbour list not."""
         word = self.word().itemsize
         size = {
             kind: (4 if kind is integer else word * components(kind, self.dim)) for kind in set(self.members.values())
         }
         state = sum(size[kind] for kind in self.members.values())
         rate = sum(word * components(kind, self.dim) for kind in self.evolved.values())
-        return 2 * state + (2 + 2 * len(self.companions)) * rate
+        return 2 * state + (2 + 2 * len(self.companions)) * rate + word * self.summed
 
     @ti.kernel
     def permute(self, field: ti.template(), spare: ti.template(), order: ti.types.ndarray(dtype=ti.i32, ndim=1)):

@@ -5,11 +5,11 @@ term that is not listed leaves no instruction.
 """
 
 from .errors import RunError
-from .moment import Moment
+from .fused import Fused
 from .opening import Opening
 from .pairs import TINY
 from .runtime import ti
-from .vector import traced
+from .sums import width
 
 MOST_BUILDS = 100  # of the list within one evaluation; h may grow by 30 % in each
 
@@ -22,36 +22,18 @@ def add(total: ti.template(), part):
             total[key] += part[key]
 
 
-BASE = ("x", "v", "m", "h", "rho", "hinv", "g")  # what a pair's line may use of every particle
-
-
-def looked_at(parts: tuple, names: tuple) -> tuple:
-    """The members the pair loops load: what the parts declare in reads, makes and keeps."""
-    wanted = {name for part in parts for name in (*part.reads, *part.makes, *part.keeps)}
-    return tuple(name for name in names if name in wanted or name in BASE)
-
-
 @ti.data_oriented
-class RHS:
+class RHS(Fused):
     """Evaluates the rates of all evolved members and the longest stable time step."""
 
     def __init__(self, particles, neighbours, pairs, density, choice, kernel, parts, stepper):
-        self.p, self.near, self.pairs, self.density = particles, neighbours, pairs, density
-        self.choice, self.kernel, self.parts, self.stepper = choice, kernel, parts, stepper
-        self.gathers = {k: v for part in parts for k, v in part.gathers.items()}
-        self.totals = {**particles.evolved, **{k: v for part in parts for k, v in part.sums.items()}}
-        self.lanes, self.looked = pairs.lanes, looked_at(parts, pairs.names)
-        self.keys = {hook: self.with_hook(hook) for hook in ("close", "gather", "gathered", "settle")}
+        super().__init__(particles, pairs, choice, kernel, parts)
+        self.near, self.density, self.stepper = neighbours, density, stepper
+        self.keys = {hook: self.with_hook(hook) for hook in ("close", "gathered", "settle")}
         self.open = Opening(particles, parts).open
-        self.moment = Moment(particles, parts)
-        self.extras = tuple(dict.fromkeys(name for part in parts for name in part.weighs))
-        self.pair_terms, self.local_terms = self.with_hook("pair"), self.with_hook("local")
-        self.sum_dt_terms = self.with_hook("longest")
+        self.local_terms, self.dt_terms = self.with_hook("local"), self.with_hook("max_dt")
         self.after_terms = tuple(sorted(self.with_hook("after"), key=lambda part: part.rank))
-        self.speed_terms, self.dt_terms = self.with_hook("speed"), self.with_hook("max_dt")
-
-    def with_hook(self, hook: str) -> tuple:
-        return tuple(part for part in self.parts if part.has(hook))
+        self.sum_dt_terms = self.with_hook("longest")
 
     def evaluate(self, t: float, dt: float) -> float:
         """Rates of the present state; t and dt (the step being taken, 0 for none) are what terms see as `now`.
@@ -65,9 +47,12 @@ class RHS:
         """The rest of an evaluation, where density and h belong to the positions already."""
         self.close(t, dt)
         self.moment.find()
-        if self.keys["gather"]:
-            self.gather(self.near.near, self.near.rows, t, dt, self.moment.most)
-        return self.rates(self.near.near, self.near.rows, t, dt, self.moment.most)
+        near, rows, most, sums = self.near.near, self.near.rows, self.moment.most, self.sums.rows
+        if self.gather_parts:
+            self.gather(near, rows, sums)
+            self.gathered(t, dt, most, sums)
+        self.rates(near, rows, t, dt, most, sums)
+        return self.finish(t, dt, most, sums)
 
     def neighbourhood(self) -> None:
         """A complete list, and density and h that belong to the present positions."""
@@ -103,60 +88,36 @@ class RHS:
             self.p.state[self.p.n].m = 0.0
 
     @ti.kernel
+    def gathered(self, t: float, dt: float, most: ti.types.ndarray(ndim=1), sums: ti.types.ndarray(ndim=2)):
+        """Members made from neighbour sums."""
+        for n in range(self.p.n):
+            now = self.moment.now(t, dt, most)
+            found = self.sums.found(sums, n, self.gathers)
+            for part in ti.static(self.keys["gathered"]):
+                self.apply(n, part.gathered(self.p.state[n], found, now))
+
+    @ti.kernel
     def settle(self, t: float, dt: float, most: ti.types.ndarray(ndim=1)):
         for n in range(self.p.n):
             now = self.moment.now(t, dt, most)
             for part in ti.static(self.keys["settle"]):
                 self.apply(n, part.settle(self.p.state[n], now))
 
-    @traced
-    def weights(self, i, j):
-        """The pair's weights, with those some part asked for."""
-        w = self.choice.weights(i, j, self.pairs.between(i, j), self.kernel)
-        more = {name: getattr(self.choice, name)(i, j, w, self.kernel) for name in self.extras}
-        return ti.Struct({**{name: getattr(w, name) for name in w.keys}, **more}) if more else w
-
     @ti.kernel
-    def gather(self, near: ti.types.ndarray(dtype=ti.i32, ndim=2), rows: ti.types.ndarray(dtype=ti.i32, ndim=1),
-               t: float, dt: float, most: ti.types.ndarray(ndim=1)):  # fmt: skip
-        """Neighbour sums some part asked for, then the members made from them."""
-        for n in range(self.p.n):
-            i, total = self.pairs.mine(n, self.looked), self.lanes.totals(self.gathers)
-            for block in range(rows[n] // self.lanes.width):
-                j = self.pairs.theirs(near, n, block, self.looked)
-                w = self.weights(i, j)
-                for part in ti.static(self.keys["gather"]):
-                    total.add(part.gather(i, j, w), part)
-            sums, now = self.lanes.summed(total), self.moment.now(t, dt, most)
-            for part in ti.static(self.keys["gathered"]):
-                self.apply(n, part.gathered(self.p.state[n], sums, now))
-
-    @ti.kernel
-    def rates(self, near: ti.types.ndarray(dtype=ti.i32, ndim=2), rows: ti.types.ndarray(dtype=ti.i32, ndim=1),
-              t: float, dt: float, most: ti.types.ndarray(ndim=1)) -> ti.f32:  # fmt: skip
-        """The fused loop; returns the longest stable step of all particles."""
+    def finish(self, t: float, dt: float, most: ti.types.ndarray(ndim=1), sums: ti.types.ndarray(ndim=2)) -> ti.f32:
+        """Rates from the sums over pairs; returns the longest stable step of all particles."""
         longest = ti.cast(1e30, ti.f32)
         for n in range(self.p.n):
-            now = self.moment.now(t, dt, most)
-            i, sums = self.pairs.mine(n, self.looked), self.lanes.totals(self.totals)
-            fastest = self.lanes.slowest()
-            for block in range(rows[n] // self.lanes.width):
-                j = self.pairs.theirs(near, n, block, self.looked)
-                w = self.weights(i, j)
-                for term in ti.static(self.pair_terms):
-                    sums.add(term.pair(i, j, w, now), term)
-                for term in ti.static(self.speed_terms):
-                    fastest = self.lanes.larger(fastest, ti.select(w.Gi + w.Gj < 0.0, term.speed(i, j, w, now), 0.0))
-            total = self.finish(self.p.state[n], self.lanes.summed(sums), now)
+            i, now = self.p.state[n], self.moment.now(t, dt, most)
+            total = self.complete(i, self.sums.found(sums, n, self.totals), now)
             for key in ti.static(self.p.names):
                 self.p.rate.get_member_field(key)[n] = total[key]
-            ti.atomic_min(
-                longest, ti.cast(self.step_of(self.p.state[n], total, self.lanes.speed(fastest), now), ti.f32)
-            )
+            fastest = self.sums.entry(sums, n, ti.static(width(self.totals)))
+            ti.atomic_min(longest, ti.cast(self.step_of(i, total, fastest, now), ti.f32))
         return longest
 
     @ti.func
-    def finish(self, i, total, now):
+    def complete(self, i, total, now):
         """What each particle adds to its own rates, once all pairs are summed."""
         for term in ti.static(self.local_terms):
             add(total, term.local(i, now))

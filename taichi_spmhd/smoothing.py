@@ -5,6 +5,7 @@ sum_j s_j W(r_ij, h_i) = s_i (h_fact/h_i)^d,   s = m by mass, 1 by volume (densi
 
 from .runtime import ti
 from .types import real
+from .wide import wide
 
 NEWTON, BISECTION = 12, 60  # iterations at the most
 SUMS = {"sum": real, "slope": real, "bend": real}
@@ -87,6 +88,7 @@ class Density:
         return ti.cast(h < 1.01 * LEAST * i.h0, ti.i32)
 
     @ti.kernel
+    @wide
     def newton(
         self, near: ti.types.ndarray(dtype=ti.i32, ndim=2), rows: ti.types.ndarray(dtype=ti.i32, ndim=1)
     ) -> ti.i32:
@@ -104,6 +106,7 @@ class Density:
         return said
 
     @ti.kernel
+    @wide
     def rescue(
         self, near: ti.types.ndarray(dtype=ti.i32, ndim=2), rows: ti.types.ndarray(dtype=ti.i32, ndim=1)
     ) -> ti.i32:

@@ -2,16 +2,18 @@
 
     s_i = sum_j m_j ( (P_i + P_j) (W'(h_i) + W'(h_j)) / r ) (x_i - x_j)
 
-Written in lanes where the rates are (f64 on the CPU) and as a plain loop where they are (f32), so that rates/yardstick
+Written in as many lanes as the rates are (8 on the CPU, 1 elsewhere), so that rates/yardstick
 depends little on the machine; it uses nothing of the package's pair loop, which is what it watches.
 """
 
 import time
+from functools import partial
 
 import numpy as np
 
 from ..lanes import best
 from ..runtime import ti
+from ..wide import wide
 
 COLUMNS = 6  # x, y, z, 1/h, m, P
 MARGIN = 1.6  # a branch or a running maximum in the pair loop costs 2 to 3.5 times; noise moved the ratios by 15 %
@@ -58,6 +60,10 @@ class Yardstick:
         return ti.Vector([columns[row, near[n, first + k]] for k in ti.static(range(self.lanes))])
 
     @ti.func
+    def zero(self):
+        return ti.Vector([ti.cast(0.0, float) for _ in ti.static(range(self.lanes))])
+
+    @ti.func
     def nearest(self, d):
         """The nearest image in a box of length 1."""
         return d - ti.floor(d + 0.5)
@@ -74,11 +80,12 @@ class Yardstick:
         return 3.0 * b * b - 0.75 * a * a
 
     @ti.kernel
+    @wide
     def loop(self, near: ti.types.ndarray(dtype=ti.i32, ndim=2), rows: ti.types.ndarray(dtype=ti.i32, ndim=1),
              columns: ti.types.ndarray(ndim=2), out: ti.types.ndarray(ndim=2)):  # fmt: skip
         """s_i of all particles."""
         for n in range(self.n):
-            total = ti.Vector.zero(float, 3)
+            sx, sy, sz = self.zero(), self.zero(), self.zero()
             for block in range(rows[n] // self.lanes):
                 first = block * self.lanes
                 r2 = self.along(columns, 0, near, n, first) ** 2
@@ -88,10 +95,11 @@ class Yardstick:
                 r, hinv = r2 * rinv, self.lane(columns, 3, near, n, first)
                 pull = (self.slope(r * columns[3, n]) + self.slope(r * hinv)) * rinv
                 pull *= self.lane(columns, 4, near, n, first) * (columns[5, n] + self.lane(columns, 5, near, n, first))
-                for a in ti.static(range(self.dim)):
-                    total[a] += (pull * self.along(columns, a, near, n, first)).sum()
-            for a in ti.static(range(3)):
-                out[a, n] = total[a]
+                sx += pull * self.along(columns, 0, near, n, first)
+                sy += pull * self.along(columns, 1, near, n, first)
+                if ti.static(self.dim > 2):
+                    sz += pull * self.along(columns, 2, near, n, first)
+            out[0, n], out[1, n], out[2, n] = sx.sum(), sy.sum(), sz.sum()
 
     @ti.kernel
     def count(self, near: ti.types.ndarray(dtype=ti.i32, ndim=2), rows: ti.types.ndarray(dtype=ti.i32, ndim=1),
@@ -118,11 +126,10 @@ class Yardstick:
 
 def ratio(sim, stick: Yardstick, repeats: int) -> tuple[float, float]:
     """ns a particle of the rates kernel and of the yardstick: minima of interleaved repeats."""
-    near, best_of = sim.neighbours, [np.inf, np.inf]
+    near, rhs, best_of = sim.neighbours, sim.rhs, [np.inf, np.inf]
+    rates = partial(rhs.rates, near.near, near.count, sim.time, 0.0, rhs.moment.most, rhs.sums.rows)
     for _ in range(repeats + 1):  # the first compiles
-        for k, call in enumerate(
-            (lambda: sim.rhs.rates(near.near, near.count, sim.time, 0.0, sim.rhs.moment.most), stick.run)
-        ):
+        for k, call in enumerate((rates, stick.run)):
             clock = time.perf_counter()
             call()
             ti.sync()
