@@ -7,7 +7,7 @@ and leave rows of sums; what a particle makes of them comes after them (rhs.py).
 from .moment import Moment
 from .runtime import ti
 from .sums import Sums
-from .vector import traced
+from .vector import named, traced
 from .wide import wide
 
 BASE = ("x", "v", "m", "h", "rho", "hinv", "g")  # what a pair's line may use of every particle
@@ -44,9 +44,9 @@ class Fused:
     @traced
     def weights(self, i, j):
         """The pair's weights, with those some part asked for."""
-        w = self.choice.weights(i, j, self.pairs.between(i, j), self.kernel)
+        w = self.choice.weights(i, j, named(self.pairs.between(i, j)), self.kernel)
         more = {name: getattr(self.choice, name)(i, j, w, self.kernel) for name in self.extras}
-        return ti.Struct({**{name: getattr(w, name) for name in w.keys}, **more}) if more else w
+        return ti.Struct({**{name: getattr(w, name) for name in w.keys}, "e": named(w.e), **more})
 
     @ti.kernel
     @wide

@@ -44,10 +44,10 @@ class Lanes:
 
     @traced
     def record(self, load, index, names):
-        """Members by name, each component loaded from `index` by `load`."""
+        """Members by name, each component loaded from `index` by `load`, into a variable: else at every use again."""
         out = {}
         for name in names:
-            parts = [load(field, index) for field in self.fields[name]]
+            parts = [ti.lang.impl.expr_init(load(field, index)) for field in self.fields[name]]
             out[name] = Vector3([*parts, 0.0, 0.0][:3]) if name in self.vectors else parts[0]
         return Record(out)
 

@@ -97,6 +97,11 @@ class Vector3(Field, SharedArray):
         return ti.sqrt(self.dot(self))
 
 
+def named(vector: "Vector3") -> "Vector3":
+    """The same vector in variables: worked out once, however often it is used."""
+    return Vector3(part if nothing(part) else ti.lang.impl.expr_init(part) for part in vector.parts)
+
+
 class Record:
     """A particle, or as many neighbours as there are lanes: members by name."""
 
