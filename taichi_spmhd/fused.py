@@ -13,9 +13,14 @@ from .wide import wide
 BASE = ("x", "v", "m", "h", "rho", "hinv", "g")  # what a pair's line may use of every particle
 
 
+def declared(part) -> tuple:
+    """The members one part says it looks at."""
+    return (*part.reads, *part.makes, *part.keeps)
+
+
 def looked_at(parts: tuple, names: tuple) -> tuple:
     """The members the pair loops load: what the parts declare in reads, makes and keeps."""
-    wanted = {name for part in parts for name in (*part.reads, *part.makes, *part.keeps)}
+    wanted = {name for part in parts for name in declared(part)}
     return tuple(name for name in names if name in wanted or name in BASE)
 
 
@@ -48,6 +53,11 @@ class Fused:
         more = {name: getattr(self.choice, name)(i, j, w, self.kernel) for name in self.extras}
         return ti.Struct({**{name: getattr(w, name) for name in w.keys}, "e": named(w.e), **more})
 
+    @traced
+    def ready(self, j, part) -> None:
+        """Load here what a part looks at: its own line may be inside an `if`, out of sight of the parts after it."""
+        j.need(name for name in declared(part) if name in self.looked)
+
     @ti.kernel
     @wide
     def gather(self, near: ti.types.ndarray(dtype=ti.i32, ndim=2), rows: ti.types.ndarray(dtype=ti.i32, ndim=1),
@@ -59,6 +69,7 @@ class Fused:
                 j = self.pairs.theirs(near, n, block, self.looked)
                 w = self.weights(i, j)
                 for part in ti.static(self.gather_parts):
+                    self.ready(j, part)
                     total.add(part.gather(i, j, w), part)
             self.sums.keep(sums, n, self.lanes, total)
 
@@ -75,6 +86,7 @@ class Fused:
                 j = self.pairs.theirs(near, n, block, self.looked)
                 w = self.weights(i, j)
                 for term in ti.static(self.pair_terms):
+                    self.ready(j, term)
                     total.add(term.pair(i, j, w, now), term)
                 for term in ti.static(self.speed_terms):
                     fastest = self.lanes.larger(fastest, ti.select(w.Gi + w.Gj < 0.0, term.speed(i, j, w, now), 0.0))

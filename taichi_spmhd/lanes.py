@@ -7,6 +7,8 @@ processor; a plain loop is at its mercy in both (docs/architecture.md). On devic
 there is one lane and everything is a plain number.
 """
 
+from functools import partial
+
 from . import runtime
 from .errors import InputError
 from .runtime import ti
@@ -43,23 +45,22 @@ class Lanes:
         return field[index]
 
     @traced
-    def record(self, load, index, names):
-        """Members by name, each component loaded from `index` by `load`, into a variable: else at every use again."""
-        out = {}
-        for name in names:
-            parts = [ti.lang.impl.expr_init(load(field, index)) for field in self.fields[name]]
-            out[name] = Vector3([*parts, 0.0, 0.0][:3]) if name in self.vectors else parts[0]
-        return Record(out)
-
-    @traced
     def one(self, index, names):
-        """The record of one particle, from its index."""
-        return self.record(self.single, index, names)
+        """The record of one particle, from its index, loaded at once."""
+        record = Record({name: partial(self.member, self.single, name, index) for name in names})
+        record.need(names)
+        return record
 
     @traced
     def many(self, index, names):
-        """The record of `width` neighbours, from their indices (a list)."""
-        return self.one(index[0], names) if self.width == 1 else self.record(self.column, index, names)
+        """The record of `width` neighbours, from their indices (a list), each member loaded where it is first used."""
+        load, where = (self.column, index) if self.width > 1 else (self.single, index[0])
+        return Record({name: partial(self.member, load, name, where) for name in names})
+
+    def member(self, load, name: str, index):
+        """One member in variables: as bare expressions they would be loaded at every use."""
+        parts = [ti.lang.impl.expr_init(load(field, index)) for field in self.fields[name]]
+        return Vector3([*parts, 0.0, 0.0][:3]) if name in self.vectors else parts[0]
 
     @traced
     def totals(self, kinds: dict):

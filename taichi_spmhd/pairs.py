@@ -1,11 +1,13 @@
 """From list entries to the records of neighbours and the pair's geometry: periodic images, mirror images, lanes."""
 
+from functools import partial
+
 from .boundary import LOWER, UPPER
 from .lanes import Lanes
 from .runtime import ti
 from .search import IMAGE
 from .types import integer
-from .vector import Vector3, traced
+from .vector import Record, Vector3, named, traced
 
 TINY = 1e-30  # keeps r > 0 for the pair (i, i), whose unit vector is then zero
 
@@ -49,22 +51,26 @@ class Pairs:
         if not self.mirrors:
             return self.lanes.many(entries, names or self.names)
         j = self.lanes.many([self.particle(entry) for entry in entries], names or self.names)
-        for a in range(self.dim):
-            self.mirror(j, a, self.column([self.side(entry, a) for entry in entries]))
-        return j
+        sides = [self.column([self.side(entry, a) for entry in entries]) for a in range(self.dim)]
+        mirrored = ("x", *self.vectors)
+        return Record(
+            {
+                name: partial(self.mirrored, name, load, sides) if name in mirrored else load
+                for name, load in j._load.items()
+            }
+        )
 
     def column(self, values):
         return ti.lang.impl.expr_init(ti.lang.matrix.make_matrix(values)) if self.lanes.width > 1 else values[0]
 
-    def mirror(self, j, a: int, side) -> None:
-        """Replace neighbours behind walls of axis a by their mirror images."""
-        sign = ti.select(side == 0, 1.0, -1.0)
-        wall = ti.select(side == LOWER, 2.0 * self.lo[a], ti.select(side == UPPER, 2.0 * self.hi[a], 0.0))
-        for name in ("x", *self.vectors):
-            if name in j.__dict__:
-                parts = list(j.__dict__[name].parts)
-                parts[a] = parts[a] * sign + (wall if name == "x" else 0.0)
-                j.__dict__[name] = Vector3(parts)
+    def mirrored(self, name: str, load, sides: list):
+        """A vector of neighbours, of their mirror images where they are behind walls; sides: which, axis by axis."""
+        parts = list(load().parts)
+        for a, side in enumerate(sides):
+            sign = ti.select(side == 0, 1.0, -1.0)
+            wall = ti.select(side == LOWER, 2.0 * self.lo[a], ti.select(side == UPPER, 2.0 * self.hi[a], 0.0))
+            parts[a] = parts[a] * sign + (wall if name == "x" else 0.0)
+        return named(Vector3(parts))
 
     @traced
     def between(self, i, j):
