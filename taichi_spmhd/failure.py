@@ -46,26 +46,39 @@ def loudest(sim, memory: int) -> str:
     shares = {}
     for term in sim.rhs.parts:
         if term.has("pair") or term.has("local") or term.has("after"):
-            out = np.zeros(1, sim.particles.word)
-            near, most = sim.neighbours, sim.rhs.moment.most
-            share(sim.rhs, sim.one_by_one, term, memory, sim.time + sim.dt, sim.dt, near.near, near.count, most, out)
-            shares[type(term).__name__] = np.inf if not np.isfinite(out[0]) else float(out[0])
+            shares[type(term).__name__] = share(sim, term, memory)
     return max(shares, key=shares.get) if shares else "no term"
 
 
+def share(sim, term, memory: int) -> float:
+    """What one term adds to the rates of a particle: the sum of absolute values of the evolved members; inf for NaN."""
+    rhs, near, when = sim.rhs, sim.neighbours, (memory, sim.time + sim.dt, sim.dt)
+    most, sums, out = rhs.moment.most, rhs.sums.rows, np.zeros(1, sim.particles.word)
+    add_up(rhs, sim.one_by_one, term, *when, near.near, near.count, most, sums)
+    complete(rhs, term, *when, most, sums, out)
+    return float(out[0]) if np.isfinite(out[0]) else np.inf
+
+
 @ti.kernel
-def share(rhs: ti.template(), pairs: ti.template(), term: ti.template(), n: ti.i32, t: float, dt: float,
-          near: ti.types.ndarray(dtype=ti.i32, ndim=2), rows: ti.types.ndarray(dtype=ti.i32, ndim=1),
-          most: ti.types.ndarray(ndim=1), out: ti.types.ndarray(ndim=1)):  # fmt: skip
-    """What one term adds to the rates of one particle, summed in absolute value over the evolved members."""
+def add_up(rhs: ti.template(), pairs: ti.template(), term: ti.template(), n: ti.i32, t: float, dt: float,
+           near: ti.types.ndarray(dtype=ti.i32, ndim=2), rows: ti.types.ndarray(dtype=ti.i32, ndim=1),
+           most: ti.types.ndarray(ndim=1), sums: ti.types.ndarray(ndim=2)):  # fmt: skip
+    """What one term sums over the neighbours of one particle."""
     for _ in range(1):
-        now = rhs.moment.now(t, dt, most)
-        i, sums = pairs.mine(n, rhs.looked), pairs.lanes.totals(rhs.totals)
+        i, total, now = pairs.mine(n, rhs.looked), pairs.lanes.totals(rhs.totals), rhs.moment.now(t, dt, most)
         if ti.static(term.has("pair")):
             for k in range(rows[n]):
                 j = pairs.theirs(near, n, k, rhs.looked)
-                sums.add(term.pair(i, j, rhs.weights(i, j), now), term)
-        total = pairs.lanes.summed(sums)
+                total.add(term.pair(i, j, rhs.weights(i, j), now), term)
+        rhs.sums.keep(sums, n, pairs.lanes, total)
+
+
+@ti.kernel
+def complete(rhs: ti.template(), term: ti.template(), n: ti.i32, t: float, dt: float, most: ti.types.ndarray(ndim=1),
+             sums: ti.types.ndarray(ndim=2), out: ti.types.ndarray(ndim=1)):  # fmt: skip
+    """The size of the rates made of these sums, and of what the term adds without neighbours."""
+    for _ in range(1):
+        total, now = rhs.sums.found(sums, n, rhs.totals), rhs.moment.now(t, dt, most)
         if ti.static(term.has("local")):
             add(total, term.local(rhs.p.state[n], now))
         if ti.static(term.has("after")):
