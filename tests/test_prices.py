@@ -15,10 +15,11 @@ from taichi_spmhd.terms import Conductivity, Pressure, Viscosity
 WHOLE = Entry("whole", "")
 
 
-def result(ms: float, **more) -> dict:
-    """What a round of an entry may say."""
-    phases = {"sort": 0.1, "list": 0.4, "density": 0.5, "rates": ms - 1.2, "kick": 0.2}
-    made = {"ms": ms, "phases_ms": phases, "pass_ms": 0.25, "particles": 100, "members": ["x"], "listed": 20.0}
+def result(ms: float, whole_ms: float | None = None, **more) -> dict:
+    """What a round of an entry may say; whole_ms: of the whole in the same round."""
+    phases = {"sort": 0.01 * ms, "list": 0.04 * ms, "density": 0.05 * ms, "rates": 0.88 * ms, "kick": 0.02 * ms}
+    made = {"ms": ms, "whole_ms": whole_ms or ms, "phases_ms": phases, "pass_ms": 0.025 * ms}
+    made |= {"particles": 100, "members": ["x"], "listed": 20.0}
     return {**made, "bytes_state": 100, "bytes_list": 80, "instructions": 50, "vector_share": 0.9, **more}
 
 
@@ -56,24 +57,27 @@ def left(scene, entry) -> list[str]:
         return []
 
 
-def test_prices_are_differences_of_the_quickest_rounds():
-    """Made up: the whole takes 10 ms, 9 without the second of two terms, 6 with the first alone."""
+def test_a_slow_minute_or_a_spoilt_measurement_changes_no_price():
+    """Made up: the whole takes 10 ms, 9 without the second of two terms, 9.1 with the first alone, 15 with another
+    kernel; twice everything takes half as long again, and one measurement is spoilt."""
+    less = {"bytes_state": 84, "members": [], "instructions": 40}
     found = {
-        WHOLE: [result(13.0), result(10.0), result(11.0)],
+        WHOLE: [result(15.0), result(10.0), result(15.0)],
         Entry("without", "Pressure"): [{"wrong": "nothing moves"}],
-        Entry("without", "Viscosity"): [result(9.0, bytes_state=84, members=[], instructions=40), result(12.0)],
-        Entry("upto", "Pressure"): [result(9.2), result(9.1, vector_share=0.01)],
-        Entry("kernel", "quintic"): [result(15.0, listed=30.0)],
+        Entry("without", "Viscosity"): [result(13.5, 15.0, **less), result(9.0, 10.0, **less), result(30, 15, **less)],
+        Entry("upto", "Pressure"): [result(13.65, 15.0, vector_share=0.01), result(9.1, 10.0, vector_share=0.01)],
+        Entry("kernel", "quintic"): [result(22.5, 15.0, listed=30.0)],
     }
     made = prices(found)
     pressure, viscosity = made["terms"]
     assert pressure["ms"] is None and pressure["reason"] == "nothing moves"
     assert viscosity["ms"] == pytest.approx(1.0) and viscosity["share"] == pytest.approx(0.1)
     assert (viscosity["bytes"], viscosity["members"], viscosity["instructions"]) == (16, ["x"], 10)
-    assert [one["ms"] for one in made["upto"]] == [9.1, 10.0]
+    assert [one["ms"] for one in made["upto"]] == pytest.approx([9.1, 10.0])
+    assert [one["rates_ms"] for one in made["upto"]] == pytest.approx([0.88 * 9.1, 8.8])
     assert [one["vectorised"] for one in made["upto"]] == [False, True]
     assert made["explained"] == pytest.approx((9.1 + 1.0) / 10.0)
-    assert made["choices"][0]["ms"] == 5.0 and made["passes"] == 2.0
+    assert made["choices"][0]["ms"] == pytest.approx(5.0) and made["passes"] == pytest.approx(2.0)
 
 
 def test_a_list_has_a_line_for_every_term_and_its_bytes_are_those_of_its_members(listed):

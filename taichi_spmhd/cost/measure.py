@@ -30,30 +30,35 @@ class Bench:
     def run(self, order: dict) -> dict:
         """order: path or name, parameters, changes, variant, t_end, key; steps: how many, without it the whole run.
 
-        Returns what `measured` says of a whole run, or prices.steps.timed of some steps.
+        Returns what `measured` says of a whole run, or prices.steps.timed of some steps, in turn with those of
+        another order, `whole`, where there is one.
         """
         with code_of(find(order["path"])):
-            sim, seconds_compile = self.ready(order)
+            whole = self.ready(order["whole"])[0] if "whole" in order else None
+            sim, seconds_compile = self.ready(order, spared=whole)
             steps = order.get("steps")
-            made = timed(sim, steps) if steps else measured(sim, self.loop)
+            made = timed(sim, steps, whole) if steps else measured(sim, self.loop)
             return {**made, "seconds_compile": seconds_compile, **runtime.started()}
 
-    def ready(self, order: dict) -> tuple[Simulation, float]:
+    def ready(self, order: dict, spared: Simulation | None = None) -> tuple[Simulation, float]:
         """A simulation at its start with everything compiled, and the seconds that took."""
         clock = time.perf_counter()
         sim = self.sims.pop(order["key"], None)
         if sim is None:
             with written_to(order.get("code")):
                 sim = compiled(scene(order))
-            self.make_room(sim)
+            self.make_room(sim, spared)
         self.sims[order["key"]] = sim  # the latest used is the last
         restart(sim)
         return sim, time.perf_counter() - clock
 
-    def make_room(self, sim: Simulation) -> None:
+    def make_room(self, sim: Simulation, spared: Simulation | None) -> None:
         """Close those not used for longest until this one fits."""
-        while self.sims and sum(map(size, self.sims.values())) + size(sim) > ROOM:
-            self.sims.pop(next(iter(self.sims))).close()
+        for key, other in list(self.sims.items()):
+            if sum(map(size, self.sims.values())) + size(sim) <= ROOM:
+                break
+            if other is not spared:
+                self.sims.pop(key).close()
 
 
 def compiled(scene) -> Simulation:

@@ -19,6 +19,7 @@ from ..setting import Setting
 from . import report
 from .code import code, environment
 from .entries import Entry, entries
+from .steps import TURNS
 from .sums import prices
 
 ROUNDS, STEPS = 7, 10
@@ -40,13 +41,16 @@ class List:
                 for precision in self.found for entry in self.entries]  # fmt: skip
 
     def task(self, entry: Entry, precision: str, k: int, folder: Path) -> Task:
-        """A round of an entry."""
+        """A round of an entry, in turn with the whole where it is not the whole itself."""
+        setting, order = self.order(entry, precision, folder)
+        whole = self.entries[0]
+        beside = {"whole": self.order(whole, precision, folder)[1]} if entry.changes != whole.changes else {}
+        return Task(setting, k, {**order, **beside, "steps": STEPS})
+
+    def order(self, entry: Entry, precision: str, folder: Path) -> tuple[Setting, dict]:
+        """The setting of an entry, and what a worker is told to build it and to leave its code."""
         setting = Setting({}, dict(entry.changes), self.plan.labels[0], precision, self.threads, work=1.0)
-        return Task(
-            setting,
-            k,
-            {**self.plan.order(setting), "steps": STEPS, "code": str(self.written(entry, precision, folder))},
-        )
+        return setting, {**self.plan.order(setting), "code": str(self.written(entry, precision, folder))}
 
     def written(self, entry: Entry, precision: str, folder: Path) -> Path:
         """Where the code of an entry is written: what is the same scene is compiled once."""
@@ -142,7 +146,7 @@ def measure(made: List, folder: Path, args, stop: Stop) -> None:
         ):
             wrong |= {task.setting.key} if "wrong" in result else set()
             if "wrong" not in result:
-                forecast.learn(task, {**result, "seconds": STEPS * result["ms"] / 1e3})
+                forecast.learn(task, {**result, "seconds": TURNS * STEPS * (result["ms"] + result["whole_ms"]) / 1e3})
             made.add(entry_of[id(task)], task, result, folder)
             bar.show(forecast.share(done), result.get("particles", 0) * 1e3 / result.get("ms", float("inf")))
     finally:

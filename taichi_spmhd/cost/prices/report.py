@@ -2,13 +2,15 @@
 
 from ... import terms as package
 from ...outputs.comparison import row as line
+from .steps import TURNS
 from .sums import CLEAR
 
 NOTE = (
-    "ms: of a step, the quickest of {rounds} interleaved rounds of {steps} steps each; +- is how far the next quickest "
-    "was from it, of the scene with the term or without, whichever was more. A term's price is what a step of the same "
-    "scene without it saves; bytes are those of its members, a particle. The list one after the other adds the terms "
-    "in the scene's order. Compiling is not in it."
+    "ms: of a step. Every scene is timed in turn with the whole, {turns} times {steps} steps, and the quickest turn of "
+    "each counts: the median ratio of {rounds} rounds, times the quickest step of the whole; +- is half the distance "
+    "of the quartiles. A term's price is what a step of the same scene without it saves; bytes are those of its "
+    "members and sums, a particle. The list one after the other adds the terms in the scene's order. Compiling is not "
+    "in it."
 )
 
 
@@ -128,4 +130,4 @@ def text(name: str, where: str, found: dict[str, dict], said: list[str], rounds:
     out = [f"# {name}: the price list", "", where, "", *(f"- {sentence}" for sentence in said)]
     for head, cells in tables(found):
         out += ["", line(head), line("---" for _ in head), *map(line, cells)]
-    return "\n".join([*out, "", NOTE.format(rounds=rounds, steps=steps), "", f"{foot}.", ""])
+    return "\n".join([*out, "", NOTE.format(turns=TURNS, rounds=rounds, steps=steps), "", f"{foot}.", ""])

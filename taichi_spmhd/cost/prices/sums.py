@@ -1,4 +1,6 @@
-"""Prices from timings: differences of minima, what they add up to, which loops are vectorised."""
+"""Prices from timings: differences to the whole, what they add up to, which loops are vectorised."""
+
+import numpy as np
 
 from ...bench.clocks import PHASES
 from .code import VECTORISED
@@ -7,17 +9,27 @@ from .entries import Entry
 CLEAR = 0.02  # of the whole: a smaller difference, or one within the spread, is not told apart from nothing
 
 
-def best(results: list[dict]) -> dict:
-    """The quickest round: what others take away from it is least; spread: how far the next one was from it."""
-    quickest, *others = sorted(results, key=lambda result: result["ms"])
-    spread = others[0]["ms"] / quickest["ms"] - 1 if others else 0.0
-    return {**quickest, "spread": spread, "rounds": len(results)}
+def middle(results: list[dict], whole_ms: float) -> dict:
+    """The rounds of an entry, in the time of a machine on which the whole takes whole_ms.
+
+    In each round the entry was timed in turn with the whole. What slows the machine for a minute slows both, so the
+    ratio is what counts: its median, and as spread half the distance of its quartiles.
+    """
+    ratios = [result["ms"] / result["whole_ms"] for result in results]
+    low, ratio, high = np.quantile(ratios, (0.25, 0.5, 0.75))
+    typical = min(results, key=lambda result: abs(result["ms"] / result["whole_ms"] - ratio))
+    scale = ratio * whole_ms / typical["ms"]
+    timings = {name: typical[name] * scale for name in ("ms", "pass_ms")}
+    phases = {phase: ms * scale for phase, ms in typical["phases_ms"].items()}
+    return {**typical, **timings, "phases_ms": phases, "spread": 0.5 * (high - low), "rounds": len(results)}
 
 
 def prices(found: dict[Entry, list[dict]]) -> dict:
     """Everything the list says of one precision; found: the results of every round of every entry."""
-    good = {entry: best(results) for entry, results in found.items() if not any("wrong" in one for one in results)}
+    good = {entry: results for entry, results in found.items() if not any("wrong" in one for one in results)}
     wrong = {entry: results[-1]["wrong"] for entry, results in found.items() if entry not in good}
+    whole_ms = min((one["whole_ms"] for results in good.values() for one in results), default=0.0)
+    good = {entry: middle(results, whole_ms) for entry, results in good.items()}
     whole = next((made for entry, made in good.items() if entry.kind == "whole"), None)
     if whole is None:
         return {"wrong": next(iter(wrong.values()), "nothing was measured")}
@@ -39,8 +51,12 @@ def term(entry: Entry, without: dict | None, whole: dict, wrong: dict) -> dict:
     if without is None:
         return {"name": entry.name, "ms": None, "reason": wrong[entry]}
     own = {"name": entry.name, "ms": whole["ms"] - without["ms"], "without_ms": without["ms"]}
-    spread = max(whole["spread"] * whole["ms"], without["spread"] * without["ms"])
-    return {**own, "spread_ms": spread, "share": own["ms"] / whole["ms"], **less(without, whole)}
+    return {
+        **own,
+        "spread_ms": without["spread"] * whole["ms"],
+        "share": own["ms"] / whole["ms"],
+        **less(without, whole),
+    }
 
 
 def less(without: dict, whole: dict) -> dict:
