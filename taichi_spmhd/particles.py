@@ -29,11 +29,8 @@ class Particles:
         self.tree = ti.FieldsBuilder()
         self.state, self.spare = self.place(self.State, n + 1), self.place(self.State, n + 1)
         self.rate, self.old = self.place(self.Rate), self.place(self.Rate)
-        self.layout, self.width = [], 0
-        for name, kind in self.members.items():
-            if name != "id":
-                self.layout.append((name, components(kind, dim), self.width))
-                self.width += components(kind, dim)
+        self.layout, self.width = layout({name: kind for name, kind in self.members.items() if name != "id"}, dim)
+        self.rate_layout, self.rate_width = layout(evolved, dim)
         self.word = np.float64 if ti.lang.impl.get_runtime().default_fp == ti.f64 else np.float32
         self.companions: list = []  # (field, spare) pairs that follow the state's order
         self.summed = 0  # columns of the rows that neighbour sums are left in (sums.py)
@@ -74,32 +71,52 @@ class Particles:
         for n in range(self.n):
             field[n] = spare[n]
 
+    @ti.func
+    def write_out(self, field: ti.template(), layout: ti.template(), n, out: ti.template()):
+        """A record as a row of a table."""
+        record = field[n]
+        for name, kind, first in ti.static(layout):
+            if ti.static(name in self.scalars):
+                out[n, first] = ti.cast(record[name], float)
+            else:
+                for c in ti.static(range(kind)):
+                    out[n, first + c] = record[name][c]
+
+    @ti.func
+    def read_in(self, field: ti.template(), layout: ti.template(), n, table: ti.template()):
+        """The inverse of write_out."""
+        for name, kind, first in ti.static(layout):
+            if ti.static(name in self.scalars):
+                field.get_member_field(name)[n] = ti.cast(table[n, first], field.get_member_field(name).dtype)
+            else:
+                for c in ti.static(range(kind)):
+                    field.get_member_field(name)[n][c] = table[n, first + c]
+
     @ti.kernel
     def export(self, out: ti.types.ndarray(ndim=2), ids: ti.types.ndarray(dtype=ti.i32, ndim=1)):
         """Every member as columns of one table, in memory order: one kernel, however many members."""
         for n in range(self.n):
-            record = self.state[n]
-            ids[n] = record.id
-            for name, kind, first in ti.static(self.layout):
-                if ti.static(name in self.scalars):
-                    out[n, first] = ti.cast(record[name], float)
-                else:
-                    for c in ti.static(range(kind)):
-                        out[n, first + c] = record[name][c]
+            ids[n] = self.state[n].id
+            self.write_out(self.state, self.layout, n, out)
 
     @ti.kernel
     def admit(self, table: ti.types.ndarray(ndim=2), ids: ti.types.ndarray(dtype=ti.i32, ndim=1)):
         """The inverse of export."""
         for n in range(self.n):
             self.state[n].id = ids[n]
-            for name, kind, first in ti.static(self.layout):
-                if ti.static(name in self.scalars):
-                    self.state.get_member_field(name)[n] = ti.cast(
-                        table[n, first], self.state.get_member_field(name).dtype
-                    )
-                else:
-                    for c in ti.static(range(kind)):
-                        self.state.get_member_field(name)[n][c] = table[n, first + c]
+            self.read_in(self.state, self.layout, n, table)
+
+    @ti.kernel
+    def export_rates(self, out: ti.types.ndarray(ndim=2)):
+        """Every rate as columns of one table, in memory order."""
+        for n in range(self.n):
+            self.write_out(self.rate, self.rate_layout, n, out)
+
+    @ti.kernel
+    def admit_table_of_rates(self, table: ti.types.ndarray(ndim=2)):
+        """The inverse of export_rates."""
+        for n in range(self.n):
+            self.read_in(self.rate, self.rate_layout, n, table)
 
     def table(self) -> tuple[np.ndarray, np.ndarray]:
         """(n, columns) of all members but id, and the caller's index (n,), in memory order."""
@@ -112,16 +129,30 @@ class Particles:
         out, ids = self.table()
         ordered = np.empty_like(out)
         ordered[ids] = out
-        return {
-            name: ordered[:, first] if name in self.scalars else ordered[:, first : first + kind]
-            for name, kind, first in self.layout
-        }
+        return self.by_name(ordered, self.layout)
 
     def rates(self) -> dict[str, np.ndarray]:
         """Rates of the last evaluation, in memory order."""
-        return {name: self.rate.get_member_field(name).to_numpy() for name in self.evolved}
+        out = np.empty((self.n, self.rate_width), self.word)
+        self.export_rates(out)
+        return self.by_name(out, self.rate_layout)
 
     def admit_rates(self, rates: dict[str, np.ndarray]) -> None:
         """The inverse of rates."""
-        for name in self.evolved:
-            self.rate.get_member_field(name).from_numpy(rates[name])
+        self.admit_table_of_rates(np.column_stack([rates[name] for name, *_ in self.rate_layout]).astype(self.word))
+
+    def by_name(self, table: np.ndarray, layout: list) -> dict[str, np.ndarray]:
+        """Columns of a table, shapes (n,) or (n, components)."""
+        return {
+            name: table[:, first] if name in self.scalars else table[:, first : first + kind]
+            for name, kind, first in layout
+        }
+
+
+def layout(members: dict, dim: int) -> tuple[list, int]:
+    """[(name, columns, first column)] of a table that holds these members, and its width."""
+    made, width = [], 0
+    for name, kind in members.items():
+        made.append((name, components(kind, dim), width))
+        width += components(kind, dim)
+    return made, width

@@ -1,4 +1,4 @@
-"""Every term in f32, where the pair loop has no lanes, against the same term in f64, where it has eight."""
+"""Every term in f32 against the same term in f64."""
 
 import subprocess
 import sys

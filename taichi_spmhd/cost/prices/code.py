@@ -1,7 +1,7 @@
 """The compiled rates kernel of an entry: how many instructions it has, and how much of its arithmetic is vectorised.
 
 Taichi writes the code of every kernel it compiles where measure.written_to says; kernels must not come from its cache
-then. Instructions are counted as Taichi hands them to LLVM, lane by lane where lanes are written out: LLVM unrolls a
+then. Instructions are counted as Taichi hands them to LLVM (one for all lanes, loads lane by lane): LLVM unrolls a
 small loop more often than a large one, so what it returns may be longer with fewer terms. Whether the loop is
 vectorised can only be seen in what LLVM returns.
 """
