@@ -158,6 +158,4 @@ class Cells:
     def sort(self) -> None:
         """Bring the particles, and what must follow them, into the order of the cells."""
         if COUNTING.arrange(self.first, self.ids, self.order, self.cells):
-            self.p.permute(self.p.state, self.p.spare, self.order)
-            for field, spare in self.p.companions:
-                self.p.permute(field, spare, self.order)
+            self.p.permute(self.order)

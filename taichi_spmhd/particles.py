@@ -42,7 +42,8 @@ class Particles:
         return field
 
     def finish(self) -> None:
-        """Allocate: nothing can be placed afterwards."""
+        """Allocate: nothing can be placed afterwards, and no companion added."""
+        self.followers = ((self.state, self.spare), *self.companions)
         self.owner = self.tree.finalize()
         ti.lang.impl.get_runtime().materialize()  # Taichi 1.7.4 crashes on fields destroyed before it looked at them
 
@@ -64,12 +65,14 @@ class Particles:
         return 2 * state + (2 + 2 * len(self.companions)) * rate + word * self.summed
 
     @ti.kernel
-    def permute(self, field: ti.template(), spare: ti.template(), order: ti.types.ndarray(dtype=ti.i32, ndim=1)):
-        """field[n] <- field[order[n]]"""
+    def permute(self, order: ti.types.ndarray(dtype=ti.i32, ndim=1)):
+        """field[n] <- field[order[n]] for the state and its companions."""
         for n in range(self.n):
-            spare[n] = field[order[n]]
+            for field, spare in ti.static(self.followers):
+                spare[n] = field[order[n]]
         for n in range(self.n):
-            field[n] = spare[n]
+            for field, spare in ti.static(self.followers):
+                field[n] = spare[n]
 
     @ti.func
     def write_out(self, field: ti.template(), layout: ti.template(), n, out: ti.template()):
