@@ -60,8 +60,7 @@ class Simulation:
         self.sliding = None if spare is None else Sliding((*parts, scene.stepper), p.tree)
         p.finish()
         self.neighbours = Neighbours(p, scene.box, scene.boundary, kernel)
-        # a live run is compiled again and again: one lane compiles five times faster than eight
-        self.pairs = Pairs(p, scene.box, scene.boundary, lanes() if spare is None else 1)
+        self.pairs = Pairs(p, scene.box, scene.boundary, lanes())
         self.one_by_one = Pairs(p, scene.box, scene.boundary, 1)  # what is measured once a frame: compiles much faster
         self.density = Density(p, self.pairs, kernel, scene.density)
         self.wire(self.right_hand_side(scene))

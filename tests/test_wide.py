@@ -199,7 +199,7 @@ def test_vectors_stay_whole_only_while_a_marked_kernel_is_compiled():
 
 @pytest.mark.parametrize(("name", "nx"), [("orszag_tang", 24), ("alfven_3d", 10), ("rotor", 32)])
 def test_one_lane_gives_what_eight_give(monkeypatch, name, nx):
-    """One lane is the loop of GPUs and of live runs: the same sums in another order. They differ by round-off and,
+    """One lane is the loop of GPUs: the same sums in another order. They differ by round-off and,
     after a step whose length is kept in single precision, by 1e-7; a lane lost or doubled shows in percents."""
     scene = list(library.load_scene(name, nx=nx).values())[-1]
     with Simulation(scene) as sim:
