@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 
 from taichi_spmhd import Simulation, library
+from taichi_spmhd.cost.measure import written_to
+from taichi_spmhd.cost.prices import code
 from taichi_spmhd.runtime import ti
 from taichi_spmhd.wide import SETTING, whole, wide
 
@@ -195,6 +197,15 @@ def test_vectors_stay_whole_only_while_a_marked_kernel_is_compiled():
     with pytest.raises(ZeroDivisionError), whole(Marked):
         raise ZeroDivisionError
     assert apart()
+
+
+def test_the_compiler_is_handed_eight_lanes_at_once(monkeypatch, tmp_path):
+    """The full MHD loop: 161 operations over eight lanes measured; the others add up lanes, once a particle."""
+    monkeypatch.setattr(ti.lang.impl.current_cfg(), "offline_cache", False)  # what is cached is not compiled
+    with written_to(str(tmp_path)), Simulation(library.load_scene("orszag_tang", nx=16)["with cleaning"]) as sim:
+        sim.step()
+    widths = [int(width or 1) for width in code.ARITHMETIC.findall(code.rates(tmp_path, code.GIVEN))]
+    assert set(widths) <= {1, LANES} and widths.count(LANES) > 100
 
 
 @pytest.mark.parametrize(("name", "nx"), [("orszag_tang", 24), ("alfven_3d", 10), ("rotor", 32)])
