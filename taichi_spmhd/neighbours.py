@@ -19,7 +19,8 @@ from .runtime import ti
 from .search import INNER, Search
 
 PADS = (1.04, 1.2)  # list radius over support, at least and at most
-STORY = ("builds", "age", "pad", "moved")
+SPARE = 1.06  # a step may use up so much more of a list than the last one did
+STORY = ("builds", "age", "pad", "used")
 
 
 @ti.data_oriented
@@ -31,7 +32,7 @@ class Neighbours(Search):
         self.kernel = kernel
         self.walls = [{image[a] for image in boundary.images} for a in range(3)]
         self.half = min((room for a in range(self.dim) if (room := boundary.room(a, box.size[a]))), default=1e30)
-        self.builds, self.age, self.pad, self.moved = 0, 0, PADS[0], 0.0  # age: evaluations since the build
+        self.builds, self.age, self.pad, self.used = 0, 0, PADS[0], 0.0  # age: evaluations since the build
         self.rows = self.count
 
     def build(self) -> None:
@@ -69,7 +70,7 @@ class Neighbours(Search):
 
     def forget(self) -> None:
         """As before the first build."""
-        self.builds, self.age, self.pad, self.moved = 0, 0, PADS[0], 0.0
+        self.builds, self.age, self.pad, self.used = 0, 0, PADS[0], 0.0
 
     def rebuild(self) -> None:
         """The list as it was when positions x0 were noted: for a state read from disk, already in memory order."""
@@ -78,34 +79,42 @@ class Neighbours(Search):
         self.rows = self.count
 
     @ti.kernel
-    def slack(self, pad: float, ring: float) -> ti.types.vector(3, ti.f32):
-        """min_i ( pad R h0_i - R h_i - d_i ), how much room is left; the same for the ring; max_j d_j / R h_j.
+    def slack(self, pad: float, ring: float) -> ti.types.vector(4, ti.f32):
+        """min_i ( pad R h0_i - R h_i - d_i ) - max_j d_j, how much room is left; the same for the ring; the smallest
+        and the largest h0.
 
         No room either when a support has outgrown half the box: the build that follows says so.
         """
-        room, inner = ti.cast(1e30, float), ti.cast(1e30, float)
-        moved, share, fits = ti.cast(0.0, float), ti.cast(0.0, float), ti.cast(1e30, float)
+        room, inner, moved = ti.cast(1e30, float), ti.cast(1e30, float), ti.cast(0.0, float)
+        small, large, fits = ti.cast(1e30, float), ti.cast(0.0, float), ti.cast(1e30, float)
         for n in range(self.p.n):
             s = self.p.state[n]
             d = (s.x - s.x0).norm()
             ti.atomic_min(room, self.support * (pad * s.h0 - s.h) - d)
             ti.atomic_min(inner, self.support * (ring * s.h0 - s.h) - d)
             ti.atomic_max(moved, d)
-            ti.atomic_max(share, d * s.hinv)
+            ti.atomic_min(small, s.h0)
+            ti.atomic_max(large, s.h0)
             ti.atomic_min(fits, self.half * (1.0 + 1e-6) - self.support * s.h)
         room, inner = ti.min(room - moved, fits), ti.min(inner - moved, fits)
-        return ti.Vector([ti.cast(room, ti.f32), ti.cast(inner, ti.f32), ti.cast(share / self.support, ti.f32)])
+        return ti.Vector(
+            [ti.cast(room, ti.f32), ti.cast(inner, ti.f32), ti.cast(small, ti.f32), ti.cast(large, ti.f32)]
+        )
 
     def holds(self) -> bool:
-        """Whether the list is complete for the present positions and smoothing lengths; rows: as much as is needed."""
-        room, inner, self.moved = self.slack(self.pad, min(INNER, self.pad))
+        """Whether the list is complete for the present positions and smoothing lengths; rows: as much as is needed.
+
+        used: by how much pad must at most exceed 1 for this, had the list been made with it.
+        """
+        room, inner, small, large = self.slack(self.pad, min(INNER, self.pad))
         self.rows = self.inner if inner >= 0.0 else self.count
+        self.used = self.pad - 1.0 - room / (self.support * (large if room > 0.0 else small))
         return room >= 0.0
 
     def follow(self) -> None:
-        """Choose the pad for the next list from how far the fastest particle came with the last one."""
-        step = 2.0 * self.moved / max(self.age, 1)
-        self.pad = float(np.clip(1.0 + 1.1 * step, *PADS)) if self.builds else PADS[0]
+        """Choose the pad for the next list so that it is of use once more: by what a step used up of the last one."""
+        step = SPARE * self.used / max(self.age, 1)
+        self.pad = float(np.clip(1.0 + step, *PADS)) if self.builds else PADS[0]
 
     @property
     def bytes_each(self) -> int:
