@@ -54,8 +54,12 @@ class Lanes:
     @traced
     def many(self, index, names):
         """The record of `width` neighbours, from their indices (a list), each member loaded where it is first used."""
+        return Record(self.loads(index, names))
+
+    def loads(self, index, names) -> dict:
+        """{name: function that loads it} for `width` neighbours."""
         load, where = (self.column, index) if self.width > 1 else (self.single, index[0])
-        return Record({name: partial(self.member, load, name, where) for name in names})
+        return {name: partial(self.member, load, name, where) for name in names}
 
     def member(self, load, name: str, index):
         """One member in variables: as bare expressions they would be loaded at every use."""

@@ -50,15 +50,12 @@ class Pairs:
         entries = self.entries(near, n, block)
         if not self.mirrors:
             return self.lanes.many(entries, names or self.names)
-        j = self.lanes.many([self.particle(entry) for entry in entries], names or self.names)
         sides = [self.column([self.side(entry, a) for entry in entries]) for a in range(self.dim)]
-        mirrored = ("x", *self.vectors)
-        return Record(
-            {
-                name: partial(self.mirrored, name, load, sides) if name in mirrored else load
-                for name, load in j._load.items()
-            }
-        )
+        loads = self.lanes.loads([self.particle(entry) for entry in entries], names or self.names)
+        for name in ("x", *self.vectors):
+            if name in loads:
+                loads[name] = partial(self.mirrored, name, loads[name], sides)
+        return Record(loads)
 
     def column(self, values):
         return ti.lang.impl.expr_init(ti.lang.matrix.make_matrix(values)) if self.lanes.width > 1 else values[0]
