@@ -32,7 +32,7 @@ class Neighbours(Search):
         self.kernel = kernel
         self.walls = [{image[a] for image in boundary.images} for a in range(3)]
         self.half = min((room for a in range(self.dim) if (room := boundary.room(a, box.size[a]))), default=1e30)
-        self.builds, self.age, self.pad, self.used = 0, 0, PADS[0], 0.0  # age: evaluations since the build
+        self.builds, self.age, self.pad, self.used = 0, 0, PADS[0], 0.0  # age: evaluations with this list
         self.rows = self.count
 
     def build(self) -> None:

@@ -58,13 +58,13 @@ class RHS(Fused):
         """A complete list, and density and h that belong to the present positions."""
         if self.near.builds == 0 or not self.near.holds():
             self.near.build()
-        self.near.age += 1
         for _ in range(MOST_BUILDS):
             rows = self.near.rows
             unresolved = self.density.solve(self.near.near, rows)
             if unresolved or not self.near.holds():
                 self.near.build()
             elif self.near.rows is rows or self.near.rows is self.near.inner:  # else h outgrew what was summed
+                self.near.age += 1
                 return
         raise RunError(
             "density: no smoothing length fits; a particle has lost all its neighbours, or two are on one spot"
