@@ -72,7 +72,7 @@ class Page:
 
     def open(self, language: str = "en") -> None:
         self.driver.get(f"{self.url}?lang={language}")
-        self.until("live.state && live.setup && live.frames.shown > 0")
+        self.until("window.live && live.state && live.setup && live.frames.shown > 0")
 
     def js(self, code: str, *given):
         """The value of an expression in the page."""
