@@ -13,7 +13,7 @@ from . import runtime
 from .errors import InputError
 from .runtime import ti
 from .types import real, vec3, vecd
-from .vector import Record, Vector3, nothing, traced
+from .vector import Record, Vector3, nothing, struct_of, traced
 
 WIDEST = 8
 
@@ -47,7 +47,7 @@ class Lanes:
     @traced
     def one(self, index, names):
         """The record of one particle, from its index, loaded at once."""
-        record = Record({name: partial(self.member, self.single, name, index) for name in names})
+        record = Record(self.loads([index], names))
         record.need(names)
         return record
 
@@ -56,9 +56,9 @@ class Lanes:
         """The record of `width` neighbours, from their indices (a list), each member loaded where it is first used."""
         return Record(self.loads(index, names))
 
-    def loads(self, index, names) -> dict:
-        """{name: function that loads it} for `width` neighbours."""
-        load, where = (self.column, index) if self.width > 1 else (self.single, index[0])
+    def loads(self, index: list, names) -> dict:
+        """{name: function that loads it} for one particle or as many as there are lanes."""
+        load, where = (self.column, index) if len(index) > 1 else (self.single, index[0])
         return {name: partial(self.member, load, name, where) for name in names}
 
     def member(self, load, name: str, index):
@@ -86,10 +86,7 @@ class Lanes:
     @traced
     def summed(self, totals: "Totals"):
         """Totals over the lanes, as a plain struct."""
-        rows = {name: [self.across(part) for part in parts] for name, parts in totals.parts.items()}
-        return ti.Struct(
-            {name: ti.lang.matrix.make_matrix(row) if len(row) == 3 else row[0] for name, row in rows.items()}
-        )
+        return struct_of({name: [self.across(part) for part in parts] for name, parts in totals.parts.items()})
 
     @ti.func
     def slowest(self):

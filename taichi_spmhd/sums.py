@@ -6,7 +6,7 @@ and whatever a term thinks of, is another kernel.
 
 from .runtime import ti
 from .types import vec3
-from .vector import traced
+from .vector import struct_of, traced
 
 
 def places(kinds: dict) -> dict[str, range]:
@@ -42,10 +42,7 @@ class Sums:
     @traced
     def found(self, rows, n, kinds: dict):
         """The sums that were kept, as a struct."""
-        made = {name: [self.entry(rows, n, column) for column in columns] for name, columns in places(kinds).items()}
-        return ti.Struct(
-            {name: ti.lang.matrix.make_matrix(row) if len(row) == 3 else row[0] for name, row in made.items()}
-        )
+        return struct_of({name: [self.entry(rows, n, k) for k in columns] for name, columns in places(kinds).items()})
 
     @ti.func
     def put(self, rows: ti.template(), n, column: ti.template(), value):

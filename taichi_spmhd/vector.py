@@ -102,6 +102,11 @@ def named(vector: "Vector3") -> "Vector3":
     return Vector3(part if nothing(part) else ti.lang.impl.expr_init(part) for part in vector.parts)
 
 
+def struct_of(rows: dict):
+    """A struct from {name: its numbers}: three make a vector."""
+    return ti.Struct({name: ti.lang.matrix.make_matrix(row) if len(row) == 3 else row[0] for name, row in rows.items()})
+
+
 class Record:
     """A particle, or as many neighbours as there are lanes: members by name.
 
