@@ -11,7 +11,8 @@ from types import MethodType
 
 import numpy as np
 
-from .wide import spell, whole
+from .lanewise import spell
+from .wide import whole
 
 MOST = 8  # launches of one kernel of one object, for as many sets of arrays
 NUMBERS = {float: (float, int, np.floating, np.integer), int: (int, np.integer)}
