@@ -1,6 +1,6 @@
 """Kernels over whole lanes: every operation of a term's line against numpy, on eight numbers at once.
 
-Tolerances are a few rounding errors; where an operation is one rounding in both, equality is asked for.
+The tolerance, 4e-15, is a few rounding errors: the compiler may join a product and a sum into one rounding.
 """
 
 import numpy as np

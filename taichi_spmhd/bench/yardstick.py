@@ -2,8 +2,8 @@
 
     s_i = sum_j m_j ( (P_i + P_j) (W'(h_i) + W'(h_j)) / r ) (x_i - x_j)
 
-Written in as many lanes as the rates are (8 on the CPU, 1 elsewhere), so that rates/yardstick
-depends little on the machine; it uses nothing of the package's pair loop, which is what it watches.
+Written in as many lanes as the rates are (8 on the CPU, 1 elsewhere), so that rates/yardstick depends little on the
+machine; it uses nothing of the package's pair loop, which is what it watches.
 """
 
 import time

@@ -17,7 +17,7 @@ def middle(results: list[dict], whole_ms: float) -> dict:
     """
     ratios = [result["ms"] / result["whole_ms"] for result in results]
     low, ratio, high = np.quantile(ratios, (0.25, 0.5, 0.75))
-    typical = min(results, key=lambda result: abs(result["ms"] / result["whole_ms"] - ratio))
+    typical = results[int(np.argmin(np.abs(np.array(ratios) - ratio)))]
     scale = ratio * whole_ms / typical["ms"]
     timings = {name: typical[name] * scale for name in ("ms", "pass_ms")}
     phases = {phase: ms * scale for phase, ms in typical["phases_ms"].items()}
@@ -26,10 +26,10 @@ def middle(results: list[dict], whole_ms: float) -> dict:
 
 def prices(found: dict[Entry, list[dict]]) -> dict:
     """Everything the list says of one precision; found: the results of every round of every entry."""
-    good = {entry: results for entry, results in found.items() if not any("wrong" in one for one in results)}
-    wrong = {entry: results[-1]["wrong"] for entry, results in found.items() if entry not in good}
-    whole_ms = min((one["whole_ms"] for results in good.values() for one in results), default=0.0)
-    good = {entry: middle(results, whole_ms) for entry, results in good.items()}
+    timed = {entry: results for entry, results in found.items() if not any("wrong" in one for one in results)}
+    wrong = {entry: results[-1]["wrong"] for entry, results in found.items() if entry not in timed}
+    whole_ms = min((one["whole_ms"] for results in timed.values() for one in results), default=0.0)
+    good = {entry: middle(results, whole_ms) for entry, results in timed.items()}
     whole = next((made for entry, made in good.items() if entry.kind == "whole"), None)
     if whole is None:
         return {"wrong": next(iter(wrong.values()), "nothing was measured")}
