@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from tiny import spmhd
 
-from taichi_spmhd import Heun, InputError, QuinticSpline, load_scene
-from taichi_spmhd.cost import choices, grid, places
+from taichi_spmhd import Heun, InputError, QuinticSpline, choices, load_scene
+from taichi_spmhd.cost import grid, places
 from taichi_spmhd.cost.measure import digest
 from taichi_spmhd.cost.plan import planned, study_of
 from taichi_spmhd.cost.setting import work

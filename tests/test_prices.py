@@ -6,8 +6,7 @@ import re
 import pytest
 from tiny import spmhd
 
-from taichi_spmhd import InputError, load_scene
-from taichi_spmhd.cost import choices
+from taichi_spmhd import InputError, choices, load_scene
 from taichi_spmhd.cost.prices.entries import Entry, entries
 from taichi_spmhd.cost.prices.sums import prices
 from taichi_spmhd.terms import Conductivity, Pressure, Viscosity

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from itertools import product
 
+from .. import choices
 from ..errors import InputError
 from ..library import load_scene
 from ..outputs.plan import chosen
@@ -11,7 +12,6 @@ from ..parameters import Parameter
 from ..parameters import read as parameter_value
 from ..runtime import PRECISIONS
 from ..scene import Scene
-from . import choices
 from .setting import PLACES, Setting, work
 
 LEVELS = (0.5, 0.7071, 1.0)  # of the scene's own nx, where nobody says more

@@ -5,14 +5,13 @@ import hashlib
 import os
 import time
 
-from .. import runtime
+from .. import choices, runtime
 from ..library import find, load_scene
 from ..outputs.plan import chosen
 from ..recast import restart
 from ..runtime import ti
 from ..scene_code import code_of
 from ..simulation import Simulation
-from . import choices
 from .calibration import Calibration
 from .figures import figures
 from .prices.steps import timed

@@ -15,7 +15,7 @@ class Silent:
         """A line that is not progress."""
 
     def show(self, done: float, speed: float) -> None:
-        """done: share of the run, 0 to 1; speed: particle updates per second."""
+        """done: share of the run, 0 to 1; speed: particle updates per second, 0 where that has no meaning."""
 
     def end(self) -> None:
         """Nothing more will come."""
@@ -37,7 +37,8 @@ class Lines(Silent):
         elif done >= self.last + EVERY or (done >= 1 > self.last):
             left = (now - self.clock) * (1 - done) / (done - self.first)
             self.last = done
-            say(f"{100 * done:4.0f} %, {rate(speed)}" + (f", about {duration(left)} left" if done < 1 else ""))
+            words = [f"{100 * done:4.0f} %", *([rate(speed)] if speed else [])]
+            say(", ".join([*words, *([f"about {duration(left)} left"] if done < 1 else [])]))
 
 
 class Bar(Silent):
@@ -55,7 +56,7 @@ class Bar(Silent):
         self.bar.console.print(text, markup=False, highlight=False)
 
     def show(self, done: float, speed: float) -> None:
-        self.bar.update(self.task, completed=done, speed=rate(speed))
+        self.bar.update(self.task, completed=done, speed=rate(speed) if speed else "")
 
     def end(self) -> None:
         self.bar.stop()

@@ -2,8 +2,8 @@
 
 from dataclasses import dataclass
 
+from ...choices import KERNELS, STEPPERS
 from ...scene import Scene
-from ..choices import KERNELS, STEPPERS
 
 OTHERS = ("cubic", "quintic", "wendland_c4")  # kernels beside the scene's own
 

@@ -1,4 +1,4 @@
-"""What `--vary` may change in any scene beside its parameters: its choices, its terms and their numbers.
+"""What may be changed in any scene beside its parameters: its choices, its terms and their numbers.
 
 kernel=cubic,quintic   stepper=leapfrog,heun   cleaning=none,constant   cour=0.3,0.15   h_fact=1.2,1.5
 Conductivity=on,off    DivBSource.xi=0,0.5
@@ -6,13 +6,13 @@ Conductivity=on,off    DivBSource.xi=0,0.5
 
 from dataclasses import fields, replace
 
-from ..errors import InputError
-from ..kernels import CubicSpline, Gaussian, QuinticSpline, WendlandC2, WendlandC4, WendlandC6
-from ..parameters import number, truth
-from ..picture import suggestion
-from ..scene import Scene
-from ..stepper import SSPRK3, Heun, LeapfrogKDK
-from ..terms import Cleaning, ConstantCleaning, TriccoPrice2012
+from .errors import InputError
+from .kernels import CubicSpline, Gaussian, QuinticSpline, WendlandC2, WendlandC4, WendlandC6
+from .parameters import number, truth
+from .picture import suggestion
+from .scene import Scene
+from .stepper import SSPRK3, Heun, LeapfrogKDK
+from .terms import Cleaning, ConstantCleaning, TriccoPrice2012
 
 KERNELS = {
     "cubic": CubicSpline,
@@ -40,21 +40,24 @@ def value(term, field):
     return getattr(term, field.name)
 
 
-def read(scene: Scene, name: str, text: str):
-    """A value from text: a word of the choice, a number, or on and off. Raises InputError, one line, with the cure."""
+def read(scene: Scene, name: str, text: str, option: str = "--vary"):
+    """A value from text: a word of the choice, a number, or on and off. Raises InputError, one line, with the cure.
+
+    option: the one that asked, for that line.
+    """
     if name in NAMED:
         if text not in NAMED[name]:
             near = suggestion(text, NAMED[name])
-            raise InputError(f"--vary {name}={text}: no such {name}{near}; there are {', '.join(NAMED[name])}")
+            raise InputError(f"{option} {name}={text}: no such {name}{near}; there are {', '.join(NAMED[name])}")
         return text
     if name not in known(scene):
-        raise InputError(f"--vary {name}: nothing of that name{suggestion(name, known(scene))}; see spmhd cost --help")
+        raise InputError(f"{option} {name}: nothing of that name{suggestion(name, known(scene))}; see --help")
     whole = name in NUMBERS or "." in name
     try:
         return number(text) if whole else truth(text)
     except (ValueError, ZeroDivisionError) as error:
         cure = "give a number" if whole else "give on or off"
-        raise InputError(f"--vary {name}={text}: {cure}") from error
+        raise InputError(f"{option} {name}={text}: {cure}") from error
 
 
 def applied(scene: Scene, changes: dict) -> Scene:

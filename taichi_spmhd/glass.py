@@ -1,0 +1,60 @@
+"""Glasses: particles pushed apart until their summed density is even, without a lattice's rows.
+
+Shocks and shear leave lattices in such a state; a start from one has no direction that is better than another.
+"""
+
+import numpy as np
+
+from .box import as_box
+from .density import SumMass
+from .eos import Isothermal
+from .errors import InputError
+from .kernels import WendlandC4
+from .lattice import centres, jitter, whole, wrapped
+
+ROUNDS, PUSH, DISORDER = 400, 0.3, 0.35  # of pushing; how far in h^2 grad rho/rho; of the start, in spacings
+
+
+def glass(box, nx: int, kernel=None, seed: int = 0) -> np.ndarray:
+    """About nx particles along x, pushed along -grad P of an isothermal gas until they lie evenly; shape (N, d).
+
+    kernel: the one whose density becomes even (default WendlandC4). The same seed gives the same bits. It starts Taichi
+    if nobody has. Raises InputError for a box narrower than two supports of the kernel.
+    """
+    from .scene import Scene
+    from .simulation import Simulation
+    from .terms import Pressure
+
+    box, kernel = as_box(box), kernel or WendlandC4()
+    x = jitter(centres(box, whole("nx", nx, 4)), box, DISORDER, whole("seed", seed, 0))
+    volume = box.volume / len(x)
+    start = {"rho": 1.0, "mass": volume}
+    scene = Scene(box=box, positions=x, start=lambda x: start, terms=(Pressure(),), eos=Isothermal(1.0), kernel=kernel,
+                  density=SumMass(1e-6))  # fmt: skip
+    with Simulation(scene) as sim:
+        for _ in range(ROUNDS):
+            table, ids = sim.particles.table()
+            push(sim, table, volume)
+            sim.particles.admit(table, ids)
+            sim.rhs.evaluate(0.0, 0.0)
+        table, ids = sim.particles.table()
+        relaxed = np.empty_like(x)
+        relaxed[ids] = columns_of(sim, table, "x")
+    if not np.isfinite(relaxed).all():
+        raise InputError("glass: the particles did not settle; take another seed, or more of them")
+    return wrapped(relaxed, box)
+
+
+def push(sim, table: np.ndarray, volume: float) -> None:
+    """x += PUSH h^2 dv/dt / c^2, a spacing's tenth at most."""
+    h, a = columns_of(sim, table, "h"), sim.particles.rates()["v"][:, : sim.dim]
+    step = PUSH * h**2 * a
+    longest = 0.1 * volume ** (1 / sim.dim)
+    step *= longest / np.maximum(longest, np.linalg.norm(step, axis=1, keepdims=True))
+    columns_of(sim, table, "x")[:] += step
+
+
+def columns_of(sim, table: np.ndarray, name: str) -> np.ndarray:
+    """The columns of a member in a table of all of them."""
+    first = {member: (first, kind) for member, kind, first in sim.particles.layout}[name]
+    return table[:, first[0] : first[0] + first[1]]
