@@ -6,7 +6,7 @@ from ..outputs.words import one_line
 from .branches import NAMES
 from .result import STILL, Dispersion
 
-PALE, MARK = "#555555", "#c1440e"
+PALE, MARK, ON_MAP = "#555555", "#c1440e", "#19a5fe"
 COLOURS = {"fast": "#c1440e", "alfven": "#2a7f62", "slow": "#3558a6"}
 WORDS = {"fast": "fast", "alfven": "Alfven", "slow": "slow"}
 STYLES = ("-", "--", ":")
@@ -59,7 +59,7 @@ def over_plane(figure, axes, found: Dispersion, top: float) -> None:
     field = "B" if found.gas.v_A else "x"
     axes.set(xlabel=f"k dx along {field}", ylabel=f"k dx across {field}", aspect="equal")
     if found.best["growth"] > STILL:
-        axes.plot(*seen(found), color="white", **RING)
+        axes.plot(*seen(found), color=ON_MAP, clip_on=False, **RING)
 
 
 def half_disc(found: Dispersion) -> tuple:

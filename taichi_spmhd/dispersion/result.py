@@ -90,7 +90,7 @@ def line(waves: PlaneWaves, gas: Gas, looked: Grid, angle: float, points: int) -
     values, vectors = waves.modes(k)
     found = [matched(waves, gas, *each) for each in zip(k, values, vectors, strict=True)]
     out = {"wavelength": 2 * np.pi / one.lengths, "growth": scale(gas) * values.real.max(axis=1)}
-    exact = speeds(gas.cs, gas.v_A, abs(gas.cosine(k[0])))
+    exact = speeds(gas.cs, gas.v_A, round(abs(gas.cosine(k[0])), 12))  # 90 degrees are not quite in radians
     for name in NAMES:
         mode = np.array([f[name] for f in found])
         out[name] = gas.fastest / gas.cs * np.abs(mode.imag) / one.lengths
