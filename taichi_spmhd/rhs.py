@@ -127,9 +127,11 @@ class RHS(Fused):
 
     @ti.func
     def step_of(self, i, total, fastest, now):
-        """min of C_cour h / v_sig, C_force sqrt(h / |dv/dt|) and what the terms allow."""
+        """min of C_cour h / v_sig, C_force sqrt(h / |dv/dt|), C_cool u / (-du/dt) and what the terms allow."""
         step = self.stepper.cour * i.h / (ti.max(i.vw, fastest) + TINY)
         step = ti.min(step, self.stepper.force * ti.sqrt(i.h / (total.v.norm() + TINY)))
+        if ti.static("u" in self.totals and "u" in self.p.members):
+            step = ti.min(step, self.stepper.cool * i.u / (ti.max(-total.u, 0.0) + TINY))
         for term in ti.static(self.dt_terms):
             step = ti.min(step, term.max_dt(i, now))
         for term in ti.static(self.sum_dt_terms):

@@ -107,13 +107,18 @@ class Advance:
 
 
 class Stepper(Choice):
-    """What steppers share: the safety factors of the time step, C_cour h / v_sig and C_force sqrt(h/|a|)."""
+    """What steppers share: the safety factors of the time step, C_cour h/v_sig, C_force sqrt(h/|a|), C_cool u/(-du/dt).
 
-    live = {"cour": (0.05, 1.0), "force": (0.05, 1.0)}
+    The last keeps gas that is torn apart faster than sound can follow from giving away more heat than it has.
+    """
+
+    live = {"cour": (0.05, 1.0), "force": (0.05, 1.0), "cool": (0.05, 1.0)}
 
     def __post_init__(self):
-        if not (0 < self.cour <= 1 and 0 < self.force <= 1):
-            raise InputError(f"{type(self).__name__}: cour = {self.cour} and force = {self.force} must lie in (0, 1]")
+        for name in ("cour", "force", "cool"):
+            value = getattr(self, name)
+            if not 0 < value <= 1:
+                raise InputError(f"{type(self).__name__}: {name} = {value} must lie in (0, 1]")
 
     def prepare(self, particles) -> object:
         """Extra fields, placed before the memory is allocated."""
@@ -130,6 +135,7 @@ class LeapfrogKDK(Stepper):
 
     cour: float = 0.3
     force: float = 0.25
+    cool: float = 0.5
 
     def step(self, sim, dt: float) -> float:
         """One step; returns the longest next one."""
@@ -167,6 +173,7 @@ class Heun(RungeKutta):
 
     cour: float = 0.3
     force: float = 0.25
+    cool: float = 0.5
     stages = ((0.0, 1.0, 1.0), (0.5, 0.5, 1.0))
 
 
@@ -176,4 +183,5 @@ class SSPRK3(RungeKutta):
 
     cour: float = 0.3
     force: float = 0.25
+    cool: float = 0.5
     stages = ((0.0, 1.0, 1.0), (0.75, 0.25, 0.5), (1 / 3, 2 / 3, 1.0))

@@ -7,7 +7,7 @@ import sys
 from ..errors import InputError, RunError
 from ..outputs.words import hush, one_line
 
-COMMANDS = ("list", "show", "run", "live", "bench", "cost", "dispersion")
+COMMANDS = ("list", "show", "run", "live", "bench", "cost", "dispersion", "stability")
 DONE, WRONG_INPUT, WENT_WRONG, INTERRUPTED = 0, 2, 3, 130
 
 

@@ -10,10 +10,11 @@ SPEEDS = ("pressure", "velocity")
 
 @dataclass(frozen=True)
 class Conductivity(Term):
-    """du_i/dt = alpha/2 sum_j v_u (u_i - u_j) ( rho_i Gi + rho_j Gj ),   v_u = sqrt( |P_i - P_j| / rho_mean )
+    """du_i/dt = alpha/2 sum_j v_u (u_i - u_j) ( s_i rho_i Gi + s_j rho_j Gj ),   v_u = sqrt( |P_i - P_j| / rho_mean )
 
     Artificial heat conduction, so that the pressure has no blip at a contact (lecture p. 21; Price 2008; Price et al.
-    2018). Conserves sum m u exactly. v_sig="velocity" takes v_u = |v_ij.e| instead (Wadsley, Veeravalli & Couchman
+    2018). Conserves sum m u exactly. s_i = 2 m_j/(m_i + m_j), s_j = 2 m_i/(m_i + m_j): 1 for equal masses, else the
+    harmonic mean of both sides (Cleary & Monaghan 1999), as in Viscosity. v_sig="velocity" takes v_u = |v_ij.e| instead (Wadsley, Veeravalli & Couchman
     2008), which leaves layers at rest alone: with gravity, or a pressure that the field holds. Advice: alpha = 1 for
     hydrodynamic shocks, 0.1 or v_sig="velocity" where gas pressure varies across a magnetically supported layer, which
     it would smear.
@@ -40,8 +41,8 @@ class Conductivity(Term):
 
     @ti.func
     def pair(self, i, j, w, now):
-        exchange = self.v_u(i, j, w) * (i.rho * w.Gi + j.rho * w.Gj)
-        return ti.Struct(u=0.5 * self.alpha * (i.u - j.u) * exchange)
+        exchange = self.v_u(i, j, w) * (j.m * i.rho * w.Gi + i.m * j.rho * w.Gj) / (i.m + j.m)
+        return ti.Struct(u=self.alpha * (i.u - j.u) * exchange)
 
 
 @dataclass(frozen=True)

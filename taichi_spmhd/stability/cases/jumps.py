@@ -1,0 +1,58 @@
+"""Jumps: of masses, of densities, of smoothing lengths, of pressures."""
+
+import numpy as np
+
+from ...boundary import Boundary, Reflecting
+from ...density import SumVolume
+from ...lattice import hexagonal, jitter, line
+from ...profiles import step_lattice
+from ..case import Case, Limits, Problem
+
+BOX = (1.0, 0.5)
+FLIGHT = (1.0, 0.5, 0.0)
+
+
+def masses(ratio: float, nx: int, B: float = 0.5) -> Problem:
+    """A slab of gas `ratio` times heavier, particle by particle, flies through the box with its surroundings."""
+
+    def start(x):
+        rho = np.where(abs(x[:, 0] - 0.5) < 0.25, ratio, 1.0)
+        return {"rho": rho, "P": 1.0, "v": FLIGHT, "B": [0.0, B, 0.0]}
+
+    return Problem(BOX, jitter(hexagonal(BOX, nx), BOX, 0.05), start, 0.5, density=SumVolume())
+
+
+def spacings(ratio: float, nx: int) -> Problem:
+    """A tube of equal masses, rho and P `ratio` times higher on the left: spacing and h jump as much."""
+    step = step_lattice((-0.5, 0.5), nx, (ratio, 1.0))
+
+    def start(x):
+        left = x[:, 0] < 0
+        zero = np.zeros(len(x))
+        B = np.stack([zero + 0.5, np.where(left, 0.5, -0.5), zero], axis=1)
+        return {"rho": np.where(left, ratio, 1.0), "P": np.where(left, ratio, 1.0), "B": B, "mass": step.mass}
+
+    walls = Boundary(x=Reflecting())
+    return Problem(((step.box.lo[0], step.box.hi[0]),), step.positions, start, 0.1, boundary=walls)
+
+
+def pressures(ratio: float, nx: int) -> Problem:
+    """A tube of one density, the pressure `ratio` times higher on the left."""
+    box = ((-0.5, 0.5),)
+
+    def start(x):
+        return {"rho": 1.0, "P": np.where(x[:, 0] < 0, ratio, 1.0)}
+
+    return Problem(box, line(box, nx), start, 0.1 / np.sqrt(ratio), boundary=Boundary(x=Reflecting()))
+
+
+CASES = (
+    Case("mass_ratio", "a slab of heavier particles flies through the box, density by volume", "ratio", masses,
+         (8.0, 100.0), (1e3,), (48, 28)),
+    Case("density_jump", "the same, the slab ten thousand times denser", "ratio",
+         masses, (1e4,), (1e6, 1e8), (48, 28)),
+    Case("h_ratio", "a magnetised tube of equal masses, rho and P jump together", "ratio", spacings,
+         (10.0, 100.0), (300.0, 1000.0), (400, 200), Limits(energy=0.02, close=0.02)),
+    Case("pressure_jump", "a tube of one density, the pressure jumps", "ratio", pressures,
+         (1e3, 1e6, 3e10), (1e13, 1e16), (200, 100), Limits(energy=0.02, close=0.02)),
+)  # fmt: skip

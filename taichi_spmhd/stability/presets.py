@@ -1,0 +1,78 @@
+"""Presets: sets of terms, kernel and stepper that a scene may start from; the battery tells what each stands.
+
+textbook   the conservative equations as they stand, xi = 0, cubic spline: what the cures are needed for
+usual      quintic spline, xi = 1/2, viscosity by Cullen & Dehnen, cleaning: sharp, the scenes' own
+robust     Wendland C4, xi = 1 where beta < 0.01, viscosity everywhere, cleaning: for what nobody has tried before
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from ..kernels import CubicSpline, Kernel, QuinticSpline, WendlandC4
+from ..scene import Scene
+from ..stepper import LeapfrogKDK
+from ..terms import (
+    Cleaning,
+    Conductivity,
+    CullenDehnen,
+    DivBSource,
+    Induction,
+    LogLinearXi,
+    Pressure,
+    Resistivity,
+    Stress,
+    Term,
+    Viscosity,
+)
+from .case import Problem
+
+
+@dataclass(frozen=True)
+class Preset:
+    """kernel and stepper; friction: what every gas has; cures: what a field needs beside Stress and Induction."""
+
+    about: str
+    kernel: Kernel
+    friction: Callable[[], tuple[Term, ...]]
+    cures: Callable[[], tuple[Term, ...]]
+    cour: float = 0.3
+
+    def scene(self, problem: Problem) -> Scene:
+        """The scene of a problem."""
+        own = (Stress(), Induction(), *self.cures()) if problem.magnetised else (Pressure(),)
+        terms = (*own, *self.friction(), *problem.extra)
+        replaced = {type(term).__name__ for term in problem.extra}
+        kept = [t for t in terms if t in problem.extra or type(t).__name__ not in (*problem.without, *replaced)]
+        given = {"kernel": self.kernel, "stepper": LeapfrogKDK(cour=self.cour), "density": problem.density}
+        return Scene(
+            box=problem.box,
+            positions=problem.positions,
+            start=problem.start,
+            terms=tuple(kept),
+            eos=problem.eos,
+            boundary=problem.boundary,
+            t_end=problem.t_end,
+            **{**given, **problem.changes},
+        )
+
+
+PRESETS = {
+    "textbook": Preset(
+        "cubic spline, xi = 0, Viscosity, Conductivity, Resistivity",
+        CubicSpline(),
+        lambda: (Viscosity(), Conductivity()),
+        lambda: (Resistivity(),),
+    ),
+    "usual": Preset(
+        "quintic spline, xi = 1/2, CullenDehnen, Conductivity, Resistivity, Cleaning",
+        QuinticSpline(),
+        lambda: (CullenDehnen(), Conductivity()),
+        lambda: (DivBSource(xi=0.5), Resistivity(), Cleaning()),
+    ),
+    "robust": Preset(
+        "Wendland C4, xi = 1/2, rising to 1 where beta < 0.1, Viscosity, Conductivity, Resistivity, Cleaning",
+        WendlandC4(),
+        lambda: (Viscosity(), Conductivity()),
+        lambda: (DivBSource(xi=LogLinearXi()), Resistivity(), Cleaning()),
+    ),
+}

@@ -1,0 +1,52 @@
+"""The record of a battery: stability.json, a row a trial, whole after every one; later trials replace earlier ones."""
+
+from pathlib import Path
+
+from ..cost.machine import machine
+from ..errors import InputError
+from ..outputs.files import as_json, plain, read_json, write_text, writing
+
+KEY = ("case", "value", "preset", "nx", "precision")
+
+
+class Record:
+    """Rows in the order in which they were first made; trials of another precision or preset stand beside them."""
+
+    def __init__(self, root, precision: str):
+        self.root, self.precision = Path(root), precision
+        for part in (self.root, *self.root.parents):
+            if part.exists() and not part.is_dir():
+                raise InputError(f"--out {root}: {part} is a file; give a folder")
+        self.rows = earlier(self.path)
+
+    @property
+    def path(self) -> Path:
+        return self.root / "stability.json"
+
+    def add(self, row: dict) -> None:
+        """One more, on the disk when this returns."""
+        row = plain({**row, "precision": self.precision})
+        same = [n for n, other in enumerate(self.rows) if key(other) == key(row)]
+        if same:
+            self.rows[same[0]] = row
+        else:
+            self.rows.append(row)
+        with writing(self.root):
+            self.root.mkdir(parents=True, exist_ok=True)
+        write_text(self.path, as_json({"machine": machine(), "rows": self.rows}))
+
+
+def key(row: dict) -> tuple:
+    """What two trials of the same thing share."""
+    return tuple(row.get(name) for name in KEY)
+
+
+def earlier(path: Path) -> list[dict]:
+    """The rows that are there. Raises InputError where the file is not one of a battery."""
+    if not path.exists():
+        return []
+    found = read_json(path)
+    rows = found.get("rows") if isinstance(found, dict) else None
+    if not isinstance(rows, list) or not all(isinstance(r, dict) and set(KEY) <= set(r) for r in rows):
+        raise InputError(f"{path}: not the record of a battery, or damaged; remove it or choose another folder")
+    return rows

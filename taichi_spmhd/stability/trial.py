@@ -1,0 +1,103 @@
+"""One trial: a scene run to its end or until it fails, and what is said of it."""
+
+import time
+from contextlib import suppress
+
+import numpy as np
+
+from ..diagnostics.clumping import clumping
+from ..diagnostics.field import div_B_figures
+from ..diagnostics.ledger import drifts, energies
+from ..errors import InputError, RunError
+from ..scene import Scene
+from ..simulation import Simulation
+from .case import Limits
+
+LOOKS = 12  # times at which arrangement and div B are measured
+SOUND, UNSOUND, FAILED = "sound", "unsound", "failed"
+PATIENCE = 200.0  # times the steps that Courant's limit asked for at the start: more is a step that has collapsed
+
+
+def trial(scene: Scene, limits: Limits) -> dict:
+    """verdict, seconds, steps, what was measured on the way; why and where it failed, or what is beyond the limits."""
+    clock, seen = time.perf_counter(), Seen()
+    try:
+        with Simulation(scene) as sim:
+            failure = run(sim, seen)
+            found = {"particles": len(sim), "t": sim.time / scene.t_end, "steps": sim.steps, "floors": int(sim.floors)}
+    except InputError as error:  # it does not even start
+        failure, found = {"why": str(error), "cause": "start"}, {"t": 0.0, "steps": 0, "floors": 0}
+    found.update(seen.measures())
+    beyond = excess(found, limits) if failure is None else []
+    verdict = FAILED if failure else UNSOUND if beyond else SOUND
+    return {"verdict": verdict, **found, "beyond": beyond, **(failure or {}), "seconds": time.perf_counter() - clock}
+
+
+def run(sim: Simulation, seen: "Seen") -> dict | None:
+    """To the end; what went wrong, or None."""
+    try:
+        sim.begin()
+        most = PATIENCE * sim.scene.t_end / max(sim.longest, 1e-300)
+        for until in np.linspace(0, sim.scene.t_end, LOOKS + 1)[1:]:
+            sim.run(float(until), watch=lambda sim: seen.step(sim, most))
+            seen.look(sim)
+    except RunError as error:
+        with suppress(RunError, InputError, ValueError, FloatingPointError):
+            seen.look(sim)  # the state of the failure, if it can be read
+        names = ("cause", "particle", "position", "member", "term", "time")
+        return {"why": str(error), **{name: getattr(error, name, None) for name in names}}
+    return None
+
+
+class Seen:
+    """The worst of what was seen in a run."""
+
+    def __init__(self):
+        self.steps, self.worst = [], {}
+
+    def step(self, sim: Simulation, most: float) -> None:
+        """After every step: its length. Raises RunError for a run that gets nowhere."""
+        self.steps.append(sim.dt)
+        if len(self.steps) > most:
+            raise RunError(f"the time step fell: {len(self.steps)} steps to t = {sim.time:.4g} of {sim.scene.t_end:g}")
+
+    def look(self, sim: Simulation) -> None:
+        """Arrangement, div B, conservation."""
+        columns = sim.columns()
+        gaps, kept = clumping(sim, columns), drifts(sim, columns)
+        stored = energies(sim, columns)
+        scale = abs(sim.ledger.E0 or 1.0) / max(sum(map(abs, stored.values())) - abs(stored["E_tot"]), 1e-300)
+        now = {
+            "energy": abs(kept["energy_drift"] - kept["energy_drift_predicted"]) * scale,
+            "momentum": abs(kept["momentum_drift"] - kept["momentum_drift_predicted"]),
+            "xi_energy": abs(kept["energy_drift_predicted"]) * scale,
+            "close": gaps["close_pairs"],
+            "gap": -gaps["smallest_gap"],
+        }
+        if "B" in columns:
+            now.update({"div_B": div_B_figures(sim, columns)["mean"], "low_beta": -lowest_beta(columns)})
+        for name, value in now.items():
+            self.worst[name] = max(self.worst.get(name, -np.inf), float(value))
+
+    def measures(self) -> dict:
+        """By name; the smallest gap and beta as they are."""
+        out = {name: value for name, value in self.worst.items() if name not in ("gap", "low_beta")}
+        for name in {"gap", "low_beta"} & set(self.worst):
+            out[name] = -self.worst[name]
+        if self.steps:
+            out["dt"] = [float(np.min(self.steps)), float(np.median(self.steps)), float(np.max(self.steps))]
+        return out
+
+
+def lowest_beta(columns: dict) -> float:
+    """The smallest 2P/B^2 of any particle."""
+    squares = (columns["B"].astype(float) ** 2).sum(axis=1)
+    return float((2 * columns["P"] / np.maximum(squares, 1e-30)).min())
+
+
+def excess(found: dict, limits: Limits) -> list[str]:
+    """What is beyond the limits, in words; a floor always is."""
+    names = ("energy", "momentum", "close", "div_B")
+    over = [name for name in names if not found.get(name, 0.0) <= getattr(limits, name)]
+    words = [f"{name} {found[name]:.2g} > {getattr(limits, name):g}" for name in over]
+    return words + ([f"{found['floors']} floors"] if found["floors"] else [])
