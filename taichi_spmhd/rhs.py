@@ -4,6 +4,7 @@ Hooks run part by part, in the order in which each part's needs are made by othe
 term that is not listed leaves no instruction.
 """
 
+from .cures import LOST
 from .errors import RunError
 from .fused import Fused
 from .opening import Opening
@@ -66,9 +67,8 @@ class RHS(Fused):
             elif self.near.rows is rows or self.near.rows is self.near.inner:  # else h outgrew what was summed
                 self.near.age += 1
                 return
-        raise RunError(
-            "density: no smoothing length fits; a particle has lost all its neighbours, or two are on one spot"
-        )
+        what = "density: no smoothing length fits; a particle has lost all its neighbours, or two are on one spot"
+        raise RunError(what, LOST)
 
     @ti.func
     def apply(self, n, part: ti.template()):
@@ -126,10 +126,17 @@ class RHS(Fused):
         return total
 
     @ti.func
+    def signal_step(self, i, fastest):
+        return self.stepper.cour * i.h / (ti.max(i.vw, fastest) + TINY)
+
+    @ti.func
+    def force_step(self, i, total):
+        return self.stepper.force * ti.sqrt(i.h / (total.v.norm() + TINY))
+
+    @ti.func
     def step_of(self, i, total, fastest, now):
         """min of C_cour h / v_sig, C_force sqrt(h / |dv/dt|) and what the terms allow."""
-        step = self.stepper.cour * i.h / (ti.max(i.vw, fastest) + TINY)
-        step = ti.min(step, self.stepper.force * ti.sqrt(i.h / (total.v.norm() + TINY)))
+        step = ti.min(self.signal_step(i, fastest), self.force_step(i, total))
         for term in ti.static(self.dt_terms):
             step = ti.min(step, term.max_dt(i, now))
         for term in ti.static(self.sum_dt_terms):

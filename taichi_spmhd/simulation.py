@@ -7,7 +7,7 @@ import numpy as np
 
 from . import runtime, state
 from .errors import InputError, RunError
-from .failure import fail
+from .failure import collapsed, ill, located
 from .lanes import best as lanes
 from .neighbours import Neighbours
 from .pairs import Pairs
@@ -18,6 +18,7 @@ from .sliding import Sliding
 from .smoothing import Density
 from .stepper import Advance
 from .types import integer
+from .watch import Watch
 
 SMALLEST_STEP = 1e-10  # of the time to simulate: a step shorter than this has collapsed
 
@@ -64,7 +65,7 @@ class Simulation:
         self.one_by_one = Pairs(p, scene.box, scene.boundary, 1)  # what is measured once a frame: compiles much faster
         self.density = Density(p, self.pairs, kernel, scene.density)
         self.wire(self.right_hand_side(scene))
-        self.advance = Advance(p, self.pairs, bool(frozen))
+        self.advance, self.watch = Advance(p, self.pairs, bool(frozen)), Watch(p)
 
     def right_hand_side(self, scene: Scene) -> RHS:
         """What evaluates the rates of a scene's terms on these particles."""
@@ -101,14 +102,18 @@ class Simulation:
         self.begin()
         dt = self.longest if dt is None else dt
         if not self.longest > SMALLEST_STEP * self.scene.t_end or not dt > 0 or self.time + dt == self.time:
-            fail(self, f"the time step collapsed to {min(dt, self.longest):.3g}")
+            raise collapsed(self, f"the time step collapsed to {min(dt, self.longest):.3g}")
         clock = time.perf_counter()
-        self.dt = dt
-        self.longest = self.scene.stepper.step(self, dt)
+        self.dt, self.ill = dt, 0
+        try:
+            self.longest = self.scene.stepper.step(self, dt)
+        except RunError as error:
+            raise located(self, error) from error
         if self.ill:
-            fail(self, "not finite or negative thermal energy")
+            raise ill(self)
         if self.rhs.keys["settle"]:
             self.rhs.settle(self.time, dt, self.rhs.moment.most)
+        self.watch.look(self)
         self.time += dt
         self.steps += 1
         spent = time.perf_counter() - clock
