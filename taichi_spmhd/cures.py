@@ -3,16 +3,17 @@
 from .guard import ours
 
 NOT_FINITE, NEGATIVE, COLLAPSED = "not finite", "u <= 0", "collapsed step"
-LOST, STRAYED, GROWN, PASSED_WALL = "lost neighbours", "strayed particle", "grown support", "passed wall"
-DRIFT = "energy drift"
+LOST, STRAYED, GROWN = "lost neighbours", "strayed particle", "grown support"
+MET, PASSED_WALL, DRIFT = "two on one spot", "passed wall", "energy drift"
 
 CAUSES = {
-    NOT_FINITE: "a smaller time step (stepper cour) or more particles",
+    NOT_FINITE: "a smaller time step (stepper cour), or more particles",
     NEGATIVE: "a smaller time step (stepper cour), or Viscosity() and Conductivity() where flows meet",
     COLLAPSED: "a smoother start, more particles, or Viscosity() where flows meet",
     LOST: "a kernel with more neighbours (larger h_fact), more particles, or a boundary that keeps them together",
     STRAYED: "a boundary that keeps it (Periodic, Reflecting), a smaller time step (stepper cour), or equal masses",
     GROWN: "more particles where the gas thins out, a boundary that keeps it, or Guard(growth=...) if this is meant",
+    MET: "Viscosity() to stop flows that meet, or DivBSource() where the field pulls particles together",
     PASSED_WALL: "Viscosity(), or a smaller time step (stepper cour)",
     DRIFT: "a smaller time step (stepper cour) or stepper=SSPRK3(); Guard(drift=inf) if a term of the scene's own "
     "does work that it does not book in leak_E",

@@ -52,16 +52,23 @@ def ill(sim) -> RunError:
     return explained(sim, "not finite", NOT_FINITE, (memory, member))
 
 
-def collapsed(sim, what: str) -> RunError:
-    """No step is left: thermal energy has run out, or the particle whose own step is shortest, and what limits it."""
+def collapsed(sim, what: str, t: float) -> RunError:
+    """No step is left at time t: thermal energy has run out, or whose own step is shortest, and what limits it."""
     columns = sim.particles.by_name(sim.particles.table()[0], sim.particles.layout)
     if "u" in columns and not columns["u"].min() > 0:
         return explained(sim, f"{what}, thermal energy has run out", NEGATIVE, coldest(sim, columns))
-    memory, limit = slowest(sim)
+    memory, limit = slowest(sim, t)
     term = None if limit in (SIGNAL, FORCE) else limit
     return explained(sim, f"{what}, limited by {limit}", COLLAPSED, (memory, "v"), term)
 
 
-def located(sim, error: RunError) -> RunError:
-    """An error from inside an evaluation, which knows neither the particle nor the time."""
-    return explained(sim, error.what, error.cause) if error.cause and error.time is None else error
+def stepped(sim, dt: float) -> float:
+    """One step of the scene's stepper: the longest next one. Raises RunError with all that is known."""
+    sim.ill = 0
+    try:
+        longest = sim.scene.stepper.step(sim, dt)
+    except RunError as error:  # from inside an evaluation, which knows neither the particle nor the time
+        raise explained(sim, error.what, error.cause) from error
+    if sim.ill:
+        raise ill(sim)
+    return longest

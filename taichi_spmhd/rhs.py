@@ -4,7 +4,7 @@ Hooks run part by part, in the order in which each part's needs are made by othe
 term that is not listed leaves no instruction.
 """
 
-from .cures import LOST
+from .cures import LOST, MET
 from .errors import RunError
 from .fused import Fused
 from .opening import Opening
@@ -67,8 +67,8 @@ class RHS(Fused):
             elif self.near.rows is rows or self.near.rows is self.near.inner:  # else h outgrew what was summed
                 self.near.age += 1
                 return
-        what = "density: no smoothing length fits; a particle has lost all its neighbours, or two are on one spot"
-        raise RunError(what, LOST)
+        why, cause = ("two are on one spot", MET) if unresolved else ("a particle has lost all its neighbours", LOST)
+        raise RunError(f"density: no smoothing length fits, {why}", cause)
 
     @ti.func
     def apply(self, n, part: ti.template()):

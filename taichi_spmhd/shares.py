@@ -5,16 +5,17 @@ import numpy as np
 from .rhs import add
 from .runtime import ti
 from .sums import width
+from .types import vec3
 
 SIGNAL, FORCE = "the signal speed", "the acceleration"
 
 
-def slowest(sim) -> tuple[int, str]:
-    """The particle (its place in memory) with the shortest own step, and what limits it."""
+def slowest(sim, t: float) -> tuple[int, str]:
+    """The particle (its place in memory) with the shortest own step at time t, and what limits it."""
     rhs = sim.rhs
     names = [SIGNAL, FORCE, *(type(part).__name__ for part in (*rhs.dt_terms, *rhs.sum_dt_terms))]
     steps = np.zeros((len(sim), len(names)), sim.particles.word)
-    limits(rhs, sim.time, sim.dt, rhs.moment.most, rhs.sums.rows, steps)
+    limits(rhs, t, sim.dt, rhs.moment.most, rhs.sums.rows, steps)
     memory, which = np.unravel_index(np.argmin(np.nan_to_num(steps, nan=-np.inf)), steps.shape)
     return int(memory), names[which]
 
@@ -66,6 +67,12 @@ def add_up(rhs: ti.template(), pairs: ti.template(), term: ti.template(), n: ti.
         rhs.sums.keep(sums, n, pairs.lanes, total)
 
 
+def stated(rhs) -> tuple:
+    """(name, whether it is a vector) of every rate a term may state: heat and B/rho, too, where others are evolved."""
+    names = (*rhs.p.names, *(name for name in ("u", "b") if name in rhs.totals and name not in rhs.p.names))
+    return tuple((name, rhs.totals[name] is vec3) for name in names)
+
+
 @ti.kernel
 def complete(rhs: ti.template(), term: ti.template(), n: ti.i32, t: float, dt: float, most: ti.types.ndarray(ndim=1),
              sums: ti.types.ndarray(ndim=2), out: ti.types.ndarray(ndim=1)):  # fmt: skip
@@ -77,8 +84,8 @@ def complete(rhs: ti.template(), term: ti.template(), n: ti.i32, t: float, dt: f
         if ti.static(term.has("after")):
             add(total, term.after(rhs.p.state[n], total, now))
         out[0] = 0.0
-        for key in ti.static(rhs.p.names):
-            if ti.static(key in rhs.p.vectors):
+        for key, vector in ti.static(stated(rhs)):
+            if ti.static(vector):
                 out[0] += ti.abs(total[key]).sum()
             else:
                 out[0] += ti.abs(total[key])

@@ -7,7 +7,7 @@ import numpy as np
 
 from . import runtime, state
 from .errors import InputError, RunError
-from .failure import collapsed, ill, located
+from .failure import collapsed, stepped
 from .lanes import best as lanes
 from .neighbours import Neighbours
 from .pairs import Pairs
@@ -60,12 +60,12 @@ class Simulation:
         p.companions.append((p.old, p.rate))
         self.sliding = None if spare is None else Sliding((*parts, scene.stepper), p.tree)
         p.finish()
-        self.neighbours = Neighbours(p, scene.box, scene.boundary, kernel)
+        self.neighbours, self.watch = Neighbours(p, scene.box, scene.boundary, kernel), Watch(p)
         self.pairs = Pairs(p, scene.box, scene.boundary, lanes())
         self.one_by_one = Pairs(p, scene.box, scene.boundary, 1)  # what is measured once a frame: compiles much faster
         self.density = Density(p, self.pairs, kernel, scene.density)
         self.wire(self.right_hand_side(scene))
-        self.advance, self.watch = Advance(p, self.pairs, bool(frozen)), Watch(p)
+        self.advance = Advance(p, self.pairs, bool(frozen))
 
     def right_hand_side(self, scene: Scene) -> RHS:
         """What evaluates the rates of a scene's terms on these particles."""
@@ -102,15 +102,10 @@ class Simulation:
         self.begin()
         dt = self.longest if dt is None else dt
         if not self.longest > SMALLEST_STEP * self.scene.t_end or not dt > 0 or self.time + dt == self.time:
-            raise collapsed(self, f"the time step collapsed to {min(dt, self.longest):.3g}")
+            raise collapsed(self, f"the time step collapsed to {min(dt, self.longest):.3g}", self.time)
         clock = time.perf_counter()
-        self.dt, self.ill = dt, 0
-        try:
-            self.longest = self.scene.stepper.step(self, dt)
-        except RunError as error:
-            raise located(self, error) from error
-        if self.ill:
-            raise ill(self)
+        self.dt = dt
+        self.longest = stepped(self, dt)
         if self.rhs.keys["settle"]:
             self.rhs.settle(self.time, dt, self.rhs.moment.most)
         self.watch.look(self)

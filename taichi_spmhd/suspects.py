@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .cures import COLLAPSED, DRIFT, GROWN, LOST, NEGATIVE, NOT_FINITE, PASSED_WALL, STRAYED
+from .cures import DRIFT, GROWN, LOST, MET, NOT_FINITE, PASSED_WALL, STRAYED
 from .search import IMAGE
 
 
@@ -37,11 +37,6 @@ def broken(sim, columns: dict) -> tuple[int, str]:
 def coldest(sim, columns: dict) -> tuple[int, str]:
     """The least thermal energy."""
     return int(np.argmin(np.nan_to_num(columns["u"], nan=-np.inf))), "u"
-
-
-def hurried(sim, columns: dict) -> tuple[int, str]:
-    """The largest acceleration."""
-    return int(np.argmax(np.nan_to_num(np.abs(sim.particles.rates()["v"]), nan=np.inf).sum(axis=1))), "v"
 
 
 def oddest(sim, columns: dict) -> tuple[int, str]:
@@ -87,11 +82,10 @@ def hottest(sim, columns: dict) -> tuple[int, str]:
 
 FINDERS = {
     NOT_FINITE: broken,
-    NEGATIVE: coldest,
-    COLLAPSED: hurried,
     LOST: loneliest,
     STRAYED: widest,
     GROWN: widest,
+    MET: oddest,
     PASSED_WALL: outermost,
     DRIFT: hottest,
 }

@@ -35,7 +35,8 @@ class Watch:
             others = sim.neighbours.fewest - 1
             raise explained(sim, f"a particle has lost its neighbours ({others} left in {sim.dim}-D)", LOST)
         if sim.longest * guard.fall < self.before:
-            raise collapsed(sim, f"the time step fell from {self.before:.3g} to {sim.longest:.3g} in a few steps")
+            what = f"the time step fell from {self.before:.3g} to {sim.longest:.3g} in a few steps"
+            raise collapsed(sim, what, sim.time + sim.dt)
         if (sim.steps + 1) % LOOK == 0:
             self.before = sim.longest
             self.weigh(sim, guard.tolerance(sim.scene.terms))
