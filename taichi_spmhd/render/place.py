@@ -22,9 +22,9 @@ def place(sim, error: RunError) -> np.ndarray:
     axes = figure.add_subplot()
     centre, d, h = surroundings(sim, columns, k)
     seen = inside(d, h, sim.neighbours.support, k)
-    (profile if sim.dim == 1 else plane)(axes, centre + d, values, seen, k, name, figure)
+    (profile if sim.dim == 1 else plane)(axes, centre + d, values, seen, name, figure)
+    (rule if sim.dim == 1 else ring)(axes, centre, sim.neighbours.support * h, values[k])
     if sim.dim > 1:
-        axes.add_patch(support(centre, sim.neighbours.support * h))
         axes.set_aspect("equal")
     axes.set_title(title(error), fontsize=9, loc="left")
     canvas = FigureCanvasAgg(figure)
@@ -71,7 +71,7 @@ def inside(d: np.ndarray, h: float, support: float, k: int) -> np.ndarray:
     return seen
 
 
-def plane(axes, x: np.ndarray, values: np.ndarray, seen: np.ndarray, k: int, name: str, figure) -> None:
+def plane(axes, x: np.ndarray, values: np.ndarray, seen: np.ndarray, name: str, figure) -> None:
     """Dots at x, y by the colour of their value; crosses where it is not finite."""
     from matplotlib.colors import LogNorm, Normalize
 
@@ -83,22 +83,28 @@ def plane(axes, x: np.ndarray, values: np.ndarray, seen: np.ndarray, k: int, nam
     figure.colorbar(dots, ax=axes, label=name)
     lost = seen & ~np.isfinite(values)
     axes.scatter(x[lost, 0], x[lost, 1], size, "black", marker="x")
-    axes.scatter(x[k, 0], x[k, 1], 4 * size, "none", edgecolors=RED, linewidths=2)
     axes.set_xlabel("x")
     axes.set_ylabel("y" if x.shape[1] == 2 else "y   (a slab of one support in z)")
 
 
-def profile(axes, x: np.ndarray, values: np.ndarray, seen: np.ndarray, k: int, name: str, figure) -> None:
-    """Values against x; a line where the ill one is."""
+def profile(axes, x: np.ndarray, values: np.ndarray, seen: np.ndarray, name: str, figure) -> None:
+    """Values against x."""
     axes.plot(x[seen, 0], values[seen], "o", ms=4, color="#30678d")
-    axes.axvline(x[k, 0], color=RED, lw=1)
-    axes.plot(x[k, 0], values[k], "o", ms=12, mfc="none", mec=RED, mew=2)
     axes.set_xlabel("x")
     axes.set_ylabel(name)
 
 
-def support(centre: np.ndarray, radius: float):
-    """The circle of a kernel's support."""
+def ring(axes, centre: np.ndarray, radius: float, value: float) -> None:
+    """Around the ill particle, and the circle of its support."""
     from matplotlib.patches import Circle
 
-    return Circle(centre[:2], radius, fill=False, color=RED, lw=0.8, ls="--")
+    axes.plot(centre[0], centre[1], "o", ms=14, mfc="none", mec=RED, mew=2)
+    axes.add_patch(Circle(centre[:2], radius, fill=False, color=RED, lw=0.8, ls="--"))
+
+
+def rule(axes, centre: np.ndarray, radius: float, value: float) -> None:
+    """A line where the ill particle is, a ring at its value, and the ends of its support."""
+    axes.axvline(centre[0], color=RED, lw=1)
+    axes.plot(centre[0], value, "o", ms=12, mfc="none", mec=RED, mew=2)
+    for end in (centre[0] - radius, centre[0] + radius):
+        axes.axvline(end, color=RED, lw=0.8, ls="--")
