@@ -9,7 +9,8 @@ class RunError(RuntimeError):
     """The run went wrong. The message is one line; what is known stands in the attributes, None where it is not.
 
     cause: one of cures.CAUSES; particle: its index in the order given; position: (d,); member: what went wrong in it;
-    term: the one with the largest share in its rates; time, step: when; cure: what to try.
+    term: the one with the largest share in its rates, or that limits its step; time: when the step that failed began,
+    step: its number, from 1; cure: what to try.
     """
 
     def __init__(self, what: str, cause: str | None = None, cure: str | None = None, **known):

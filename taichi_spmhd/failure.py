@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .cures import COLLAPSED, NEGATIVE, NOT_FINITE, STRAYED, cure
+from .cures import CAUSES, COLLAPSED, NEGATIVE, NOT_FINITE, STRAYED, cure
 from .errors import RunError
 from .shares import FORCE, SIGNAL, loudest, slowest
 from .suspects import coldest, spoilt, suspect
@@ -68,6 +68,8 @@ def stepped(sim, dt: float) -> float:
     try:
         longest = sim.scene.stepper.step(sim, dt)
     except RunError as error:  # from inside an evaluation, which knows neither the particle nor the time
+        if error.cause not in CAUSES:
+            raise
         raise explained(sim, error.what, error.cause) from error
     if sim.ill:
         raise ill(sim)

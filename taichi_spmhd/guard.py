@@ -13,8 +13,8 @@ class Guard:
     """Beside what always stops a run (not finite, u <= 0, a collapsed step, lost neighbours); inf: not watched.
 
     drift: energy off the ledger, over the sum of the absolute energies, looked at every watch.LOOK steps. None: half
-    where all terms are the package's own, for then the ledger knows whatever does work; else not watched. 1e-3 is a
-    strict test of smooth flow, 0.01 to 0.05 suits shocks.
+    where all terms and choices are the package's own, for then the ledger knows whatever does work; else not watched.
+    All scenes of the package stay below 0.01.
     growth: the largest smoothing length over the largest at the start: a particle that flies off alone, or a gas
     thinned out beyond what its particles can show. The density falls by growth^d.
     fall: how many times the longest stable step may shrink within two looks.
@@ -30,11 +30,11 @@ class Guard:
             if not (value is None and name == "drift") and not (isinstance(value, float | int) and value > least):
                 raise InputError(f"Guard: {name} = {value!r} must be a number above {least:g}; inf: not watched")
 
-    def tolerance(self, terms: tuple) -> float:
-        """The drift that stops a scene with these terms."""
+    def tolerance(self, parts: tuple) -> float:
+        """The drift that stops a scene with these terms and choices."""
         if self.drift is not None:
             return self.drift
-        return HALF if all(ours(term) for term in terms) else inf
+        return HALF if all(map(ours, parts)) else inf
 
 
 def ours(part) -> bool:

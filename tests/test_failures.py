@@ -23,6 +23,7 @@ from taichi_spmhd import (
     search,
     square,
 )
+from taichi_spmhd.recast import restart
 from taichi_spmhd.runtime import ti
 from taichi_spmhd.terms import Cleaning, DivBSource, Induction, Pressure, Stress, Viscosity
 from taichi_spmhd.types import real, vec3
@@ -269,15 +270,18 @@ def test_a_violent_collision_without_viscosity_is_told_its_beta():
     assert error.cause in cures.BY_RATES and "DivBSource(xi=1)" in error.cure and "beta = " in error.cure
 
 
-def test_a_stopped_run_can_be_started_anew_and_goes_on_like_any_other():
-    from taichi_spmhd.recast import restart
+def test_a_run_taken_up_again_or_started_anew_is_stopped_where_the_undisturbed_one_is(tmp_path):
+    scene, path, ends = gas(Heat(), guard=Guard(drift=0.01)), tmp_path / "state.npz", []
 
-    scene = gas(Heat(), guard=Guard(drift=0.01))
+    def stopped(sim, **more) -> None:
+        with pytest.raises(RunError) as caught:
+            sim.run(1.0, **more)
+        ends.append((caught.value.step, caught.value.time, caught.value.particle))
+
     with Simulation(scene) as sim:
-        times = []
-        for _ in range(2):
-            with pytest.raises(RunError) as caught:
-                sim.run(1.0)
-            times.append((caught.value.time, caught.value.particle))
-            restart(sim)
-    assert times[0] == times[1]
+        stopped(sim, watch=lambda sim: sim.save(path) if sim.steps == LOOK // 2 else None)
+        restart(sim)
+        stopped(sim)
+    with Simulation.load(path, scene) as sim:
+        stopped(sim)
+    assert ends[0] == ends[1] == ends[2]

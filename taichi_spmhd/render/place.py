@@ -3,6 +3,7 @@
 import numpy as np
 
 from ..errors import RunError
+from .colours import auto_limits
 
 REACH = 6.0  # smoothing lengths to be seen on each side
 FEWEST = 40  # particles to be seen, however far they are
@@ -76,7 +77,7 @@ def plane(axes, x: np.ndarray, values: np.ndarray, seen: np.ndarray, name: str, 
     from matplotlib.colors import LogNorm, Normalize
 
     fine = seen & np.isfinite(values)
-    low, high = (values[fine].min(), values[fine].max()) if fine.any() else (0.0, 1.0)
+    low, high = auto_limits(values[fine])
     norm = LogNorm(low, high) if low > 0 and high > SPAN * low else Normalize(low, high)
     size = min(120.0, max(4.0, 2e4 / max(1, seen.sum())))
     dots = axes.scatter(x[fine, 0], x[fine, 1], size, values[fine], cmap="viridis", norm=norm, linewidths=0)
