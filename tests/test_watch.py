@@ -1,8 +1,12 @@
 """The watch over a run: it sees the energy the ledger sees, changes no bit, and costs next to nothing."""
 
+import os
 import statistics
+import subprocess
+import sys
 import time
 from math import inf
+from pathlib import Path
 
 import pytest
 from conftest import chaos, disordered_scene
@@ -101,6 +105,29 @@ def test_the_watch_costs_less_than_a_hundredth_of_a_step(case, simulate):
         idle.append(seconds(lambda: [sim.watch.look(sim) for _ in range(100)]) / 100)
     share = (statistics.median(looks) / LOOK + statistics.median(idle)) / statistics.median(steps)
     assert (sim.steps + 1) % LOOK and share < 0.01  # measured 0.0003 to 0.0025
+
+
+SINGLE = """
+from taichi_spmhd import runtime
+runtime.init(arch="cpu", precision="f32", threads=2)
+with Simulation(cases.scene("mhd2d_f32", 64)) as sim:
+    for _ in range(3):
+        sim.step()
+    columns = sim.columns()
+    told = energies(sim, columns)["E_tot"] - predicted(sim, columns)[0]
+    print(sim.watch.energies(sim)[0] / told - 1)
+"""
+
+
+@pytest.mark.slow
+def test_in_f32_the_watch_adds_up_in_double_precision():
+    here = Path(__file__).parent
+    paths = os.pathsep.join([str(here), str(here.parent), os.environ.get("PYTHONPATH", "")])
+    command = [sys.executable, "-c", f"from test_watch import *\n{SINGLE}"]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=300, env={**os.environ, "PYTHONPATH": paths})
+    assert done.returncode == 0, done.stderr[-2000:]
+    off = float(done.stdout.split()[-1])
+    assert abs(off) < 1e-9  # measured 2e-11; sums in f32 would be off by 1e-7 and more
 
 
 def seconds(call) -> float:
