@@ -17,6 +17,7 @@ try:
     from .density import SumMass, SumVolume
     from .energy import Thermal, Total
     from .eos import Adiabatic, Isothermal, LocallyIsothermal
+    from .guard import Guard
     from .kernels import CubicSpline, Gaussian, QuinticSpline, WendlandC2, WendlandC4, WendlandC6
     from .lattice import close_packed, cubic, hexagonal, jitter, line, spacing, square
     from .library import load_scene
@@ -53,6 +54,7 @@ __all__ = [
     "CubicSpline",
     "Frozen",
     "Gaussian",
+    "Guard",
     "Heun",
     "InputError",
     "Isothermal",

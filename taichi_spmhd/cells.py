@@ -6,6 +6,7 @@ Axes without a period follow the particles.
 
 import numpy as np
 
+from .cures import NOT_FINITE
 from .errors import RunError
 from .particles import Particles
 from .runtime import ti
@@ -129,7 +130,7 @@ class Cells:
         span = np.array(self.note(int(fold)), self.p.word)
         self.widest, self.longest, self.span = float(span[6]), 0.0, span
         if not np.isfinite(span[[*range(self.dim), *range(3, 3 + self.dim), 6]]).all():
-            raise RunError("cells: a position or smoothing length is not finite")
+            raise RunError("cells: a position or smoothing length is not finite", NOT_FINITE)
         self.divide(reach_per_h * self.widest)
         cells = int(self.shape.prod())
         if self.first.shape[0] < cells + 1:

@@ -13,7 +13,7 @@ from .neighbours import STORY
 from .particles import COLD, HOT
 from .replacing import replacing
 
-FORMAT = 1
+FORMAT = 2  # 2: the largest h at the start, and the step at the last look
 WORDS = {8: "f64", 4: "f32"}
 NUMBERS = ("time", "dt", "longest", "seconds", "seconds_compile")
 COUNTS = ("steps", "timed", "floors")
@@ -46,7 +46,7 @@ def content(sim) -> dict[str, np.ndarray]:
     out["table"] = table[:, kept]
     out.update({name: getattr(sim, name) for name in NUMBERS + COUNTS})
     out["scene"] = sim.scene.sketch()
-    out.update({"E0": ledger.E0, "p0": ledger.p0, "v_rms": ledger.v_rms})
+    out.update({**vars(ledger), "before": sim.watch.before})
     out.update(sim.neighbours.story())
     out.update({f"rate_{name}": rate for name, rate in sim.particles.rates().items() if name in own_rates(sim)})
     return {name: np.asarray(value) for name, value in out.items()}
@@ -123,8 +123,8 @@ def admit(sim, path, saved: dict) -> None:
         )
     try:
         rates = {**p.rates(), **{name: saved[f"rate_{name}"] for name in own_rates(sim)}}
-        numbers = {name: saved[name].item() for name in (*NUMBERS, *COUNTS, *STORY, "E0", "v_rms")}
-        ledger = Ledger(numbers["E0"], saved["p0"], numbers["v_rms"])
+        numbers = {name: saved[name].item() for name in (*NUMBERS, *COUNTS, *STORY, "E0", "v_rms", "widest", "before")}
+        ledger = Ledger(numbers["E0"], saved["p0"], numbers["v_rms"], numbers["widest"])
     except (KeyError, ValueError) as error:
         raise InputError(f"{path}: {error} is missing; give the scene and parameters the run had") from error
     kept = own(sim)
@@ -139,6 +139,6 @@ def admit(sim, path, saved: dict) -> None:
     p.admit_rates(rates)
     sim.neighbours.retell(numbers)
     sim.neighbours.rebuild()
-    sim.ledger = ledger
+    sim.ledger, sim.watch.before = ledger, numbers["before"]
     for name in NUMBERS + COUNTS:
         setattr(sim, name, numbers[name])

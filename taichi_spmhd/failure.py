@@ -1,91 +1,76 @@
-"""What is said when a run goes wrong: the particle, the place, the term and the time."""
+"""What is said when a run goes wrong: the particle, the place, the member, the term, the time, and what to try."""
 
 import numpy as np
 
+from .cures import CAUSES, COLLAPSED, NEGATIVE, NOT_FINITE, STRAYED, cure
 from .errors import RunError
-from .rhs import add
-from .runtime import ti
+from .shares import FORCE, SIGNAL, loudest, slowest
+from .suspects import coldest, spoilt, suspect
 
 
-def fail(sim, what: str) -> None:
-    """Raises RunError with the particle, the place, the term with the largest share in its rates, and the time."""
+def explained(sim, what: str, cause: str, found: tuple[int, str] | None = None, term: str | None = None) -> RunError:
+    """The error that says so. found: (place in memory, member), term: the one to blame, where they are known."""
+    memory, member = found or suspect(sim, cause)
     table, ids = sim.particles.table()
-    memory, name = (sim.ill - 1, spoilt(sim, table, sim.ill - 1)) if sim.ill else fastest(sim)
-    columns = {name: table[:, first : first + kind] for name, kind, first in sim.particles.layout}
-    place = ", ".join(f"{c:.4g}" for c in columns["x"][memory])
-    term = loudest(sim, memory)
-    raise RunError(
-        f"{what} at t = {sim.time:.6g}, step {sim.steps + 1}: particle {ids[memory]} at ({place}), member {name}, "
-        f"largest rate from {term}; try a smaller time step (stepper cour), more particles, or a remedy for this term"
+    columns = sim.particles.by_name(table, sim.particles.layout)
+    position = columns["x"][memory].astype(float)
+    if term is None and cause != STRAYED:  # there the list is of no use
+        term = loudest(sim, memory)
+    place = ", ".join(f"{c:.4g}" for c in position)
+    blame = f", largest rate from {term}" if term else ""
+    where = f"particle {ids[memory]} at ({place}), member {member}{blame}"
+    return RunError(
+        f"{what} at t = {sim.time:.6g}, step {sim.steps + 1}: {where}",
+        cause,
+        cure(cause, sim.scene, term, beta(columns, memory)),
+        particle=int(ids[memory]),
+        position=position,
+        member=member,
+        term=term,
+        time=float(sim.time),
+        step=sim.steps + 1,
     )
 
 
-def spoilt(sim, table: np.ndarray, memory: int) -> str:
-    """The evolved member of a particle (at its place in memory) that is not finite, or u where all are."""
+def beta(columns: dict, memory: int) -> float | None:
+    """2P/B^2 of a particle; None without a field."""
+    if not {"P", "B"} <= set(columns):
+        return None
+    B2 = float((columns["B"][memory].astype(float) ** 2).sum())
+    found = 2 * float(columns["P"][memory]) / B2 if B2 > 0 else np.nan
+    return found if np.isfinite(found) else None
+
+
+def ill(sim) -> RunError:
+    """A stepper found a value that is not finite, or u <= 0."""
+    memory = sim.ill - 1
+    columns = sim.particles.by_name(sim.particles.table()[0], sim.particles.layout)
+    member = spoilt(sim, columns, memory)
     rates = sim.particles.rates()
-    first = {name: first for name, _, first in sim.particles.layout}
-    ill = [
-        name
-        for name, values in rates.items()
-        if not (np.isfinite(values[memory]).all() and np.isfinite(table[memory, first[name]]))
-    ]
-    return ill[0] if ill else "u" if "u" in rates else "v"
+    if member == "u" and np.isfinite(rates["u"][memory]) and np.isfinite(columns["u"][memory]):
+        return explained(sim, "negative thermal energy", NEGATIVE, (memory, member))
+    return explained(sim, "not finite", NOT_FINITE, (memory, member))
 
 
-def fastest(sim) -> tuple[int, str]:
-    """The particle (its place in memory) whose thermal energy ran out, else that with the largest acceleration."""
-    table, _ = sim.particles.table()
-    first = {name: first for name, _, first in sim.particles.layout}
-    if "u" in first and not table[:, first["u"]].min() > 0:
-        return int(np.argmin(table[:, first["u"]])), "u"
-    return int(np.argmax(np.abs(sim.particles.rates()["v"]).sum(axis=1))), "v"
+def collapsed(sim, what: str, t: float) -> RunError:
+    """No step is left at time t: thermal energy has run out, or whose own step is shortest, and what limits it."""
+    columns = sim.particles.by_name(sim.particles.table()[0], sim.particles.layout)
+    if "u" in columns and not columns["u"].min() > 0:
+        return explained(sim, f"{what}, thermal energy has run out", NEGATIVE, coldest(sim, columns))
+    memory, limit = slowest(sim, t)
+    term = None if limit in (SIGNAL, FORCE) else limit
+    return explained(sim, f"{what}, limited by {limit}", COLLAPSED, (memory, "v"), term)
 
 
-def loudest(sim, memory: int) -> str:
-    """The term whose contribution to this particle's rates is not finite, or the largest."""
-    shares = {}
-    for term in sim.rhs.parts:
-        if term.has("pair") or term.has("local") or term.has("after"):
-            shares[type(term).__name__] = share(sim, term, memory)
-    return max(shares, key=shares.get) if shares else "no term"
-
-
-def share(sim, term, memory: int) -> float:
-    """What one term adds to the rates of a particle: the sum of absolute values of the evolved members; inf for NaN."""
-    rhs, near, when = sim.rhs, sim.neighbours, (memory, sim.time + sim.dt, sim.dt)
-    most, sums, out = rhs.moment.most, rhs.sums.rows, np.zeros(1, sim.particles.word)
-    add_up(rhs, sim.one_by_one, term, *when, near.near, near.count, most, sums)
-    complete(rhs, term, *when, most, sums, out)
-    return float(out[0]) if np.isfinite(out[0]) else np.inf
-
-
-@ti.kernel
-def add_up(rhs: ti.template(), pairs: ti.template(), term: ti.template(), n: ti.i32, t: float, dt: float,
-           near: ti.types.ndarray(dtype=ti.i32, ndim=2), rows: ti.types.ndarray(dtype=ti.i32, ndim=1),
-           most: ti.types.ndarray(ndim=1), sums: ti.types.ndarray(ndim=2)):  # fmt: skip
-    """What one term sums over the neighbours of one particle."""
-    for _ in range(1):
-        i, total, now = pairs.mine(n, rhs.looked), pairs.lanes.totals(rhs.totals), rhs.moment.now(t, dt, most)
-        if ti.static(term.has("pair")):
-            for k in range(rows[n]):
-                j = pairs.theirs(near, n, k, rhs.looked)
-                total.add(term.pair(i, j, rhs.weights(i, j), now), term)
-        rhs.sums.keep(sums, n, pairs.lanes, total)
-
-
-@ti.kernel
-def complete(rhs: ti.template(), term: ti.template(), n: ti.i32, t: float, dt: float, most: ti.types.ndarray(ndim=1),
-             sums: ti.types.ndarray(ndim=2), out: ti.types.ndarray(ndim=1)):  # fmt: skip
-    """The size of the rates made of these sums, and of what the term adds without neighbours."""
-    for _ in range(1):
-        total, now = rhs.sums.found(sums, n, rhs.totals), rhs.moment.now(t, dt, most)
-        if ti.static(term.has("local")):
-            add(total, term.local(rhs.p.state[n], now))
-        if ti.static(term.has("after")):
-            add(total, term.after(rhs.p.state[n], total, now))
-        out[0] = 0.0
-        for key in ti.static(rhs.p.names):
-            if ti.static(key in rhs.p.vectors):
-                out[0] += ti.abs(total[key]).sum()
-            else:
-                out[0] += ti.abs(total[key])
+def stepped(sim, dt: float) -> float:
+    """One step of the scene's stepper: the longest next one. Raises RunError with all that is known."""
+    sim.ill = 0
+    try:
+        longest = sim.scene.stepper.step(sim, dt)
+    except RunError as error:  # from inside an evaluation, which knows neither the particle nor the time
+        if error.cause not in CAUSES:
+            raise
+        raise explained(sim, error.what, error.cause) from error
+    if sim.ill:
+        raise ill(sim)
+    return longest

@@ -123,12 +123,15 @@ class Finder:
              inner: ti.types.ndarray(dtype=ti.i32, ndim=1), first: ti.types.ndarray(dtype=ti.i32, ndim=1),
              at: ti.types.ndarray(dtype=ti.f32, ndim=2), bit: ti.types.ndarray(dtype=ti.i32, ndim=1), share: ti.f32,
              cell_of: ti.types.ndarray(dtype=ti.i32, ndim=1), grid: ti.types.ndarray(ndim=2),
-             shape: ti.types.ndarray(dtype=ti.i32, ndim=1), narrow: ti.template()) -> ti.i32:  # fmt: skip
-        """Write all rows; returns the largest count, which may exceed the width: then the rows are of no use.
+             shape: ti.types.ndarray(dtype=ti.i32, ndim=1),
+             narrow: ti.template()) -> ti.types.vector(2, ti.i32):  # fmt: skip
+        """Write all rows; returns the largest and the smallest count, the particle itself included.
+
+        The largest may exceed the width: then the rows are of no use.
 
         share: of a squared radius, that of the inner ring.
         """
-        most = 0
+        most, fewest = 0, count.shape[0]
         for n in range(count.shape[0]):
             here = ti.Vector.zero(ti.f32, 3)
             for a in ti.static(range(self.dim)):
@@ -141,7 +144,8 @@ class Finder:
             count[n] = self.close_up(n, found, near, count.shape[0])
             inner[n] = ti.min(count[n], (found[0] + LANES - 1) // LANES * LANES)
             ti.atomic_max(most, found[0] + found[1])
-        return most
+            ti.atomic_min(fewest, found[0] + found[1])
+        return ti.Vector([most, fewest])
 
     @ti.func
     def close_up(self, n, found, near: ti.template(), nobody):

@@ -13,6 +13,7 @@ more. Rows end with index n (nobody, without mass) up to a whole number of vecto
 import numpy as np
 
 from .boundary import LOWER, UPPER
+from .cures import GROWN, PASSED_WALL
 from .errors import RunError
 from .particles import Particles
 from .runtime import ti
@@ -49,13 +50,12 @@ class Neighbours(Search):
         for a in range(self.dim):
             low, high = self.cells.span[a], self.cells.span[3 + a]
             if (LOWER in self.walls[a] and low < self.lo[a]) or (UPPER in self.walls[a] and high > self.hi[a]):
-                raise RunError(f"boundary: a particle has passed the reflecting wall along {'xyz'[a]}; add Viscosity()")
+                what = f"boundary: a particle has passed the reflecting wall along {'xyz'[a]}"
+                raise RunError(what, PASSED_WALL, "add Viscosity()")
         reach = self.support * self.cells.widest
         if reach > self.half * (1 + 1e-6):
-            raise RunError(
-                f"density: a kernel support of radius {reach:.3g} has outgrown the box (room: {self.half:.3g}); "
-                "raise nx, widen the box or take a smaller kernel"
-            )
+            what = f"density: a kernel support of radius {reach:.3g} has outgrown the box (room: {self.half:.3g})"
+            raise RunError(what, GROWN, "raise nx, widen the box or take a smaller kernel")
 
     def story(self) -> dict:
         """What, beside x0 and h0, decides when the next list is built and how wide: part of the state of a run."""

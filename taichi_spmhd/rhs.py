@@ -4,6 +4,7 @@ Hooks run part by part, in the order in which each part's needs are made by othe
 term that is not listed leaves no instruction.
 """
 
+from .cures import LOST, MET
 from .errors import RunError
 from .fused import Fused
 from .opening import Opening
@@ -66,9 +67,8 @@ class RHS(Fused):
             elif self.near.rows is rows or self.near.rows is self.near.inner:  # else h outgrew what was summed
                 self.near.age += 1
                 return
-        raise RunError(
-            "density: no smoothing length fits; a particle has lost all its neighbours, or two are on one spot"
-        )
+        why, cause = ("two are on one spot", MET) if unresolved else ("a particle has lost all its neighbours", LOST)
+        raise RunError(f"density: no smoothing length fits, {why}", cause)
 
     @ti.func
     def apply(self, n, part: ti.template()):
@@ -126,12 +126,24 @@ class RHS(Fused):
         return total
 
     @ti.func
+    def signal_step(self, i, fastest):
+        return self.stepper.cour * i.h / (ti.max(i.vw, fastest) + TINY)
+
+    @ti.func
+    def force_step(self, i, total):
+        return self.stepper.force * ti.sqrt(i.h / (total.v.norm() + TINY))
+
+    @ti.func
+    def heat_step(self, i, total):
+        if ti.static("u" in self.totals and "u" in self.p.members):
+            return self.stepper.cool * i.u / (ti.max(-total.u, 0.0) + TINY)
+        else:
+            return ti.cast(1e30, float)
+
+    @ti.func
     def step_of(self, i, total, fastest, now):
         """min of C_cour h / v_sig, C_force sqrt(h / |dv/dt|), C_cool u / (-du/dt) and what the terms allow."""
-        step = self.stepper.cour * i.h / (ti.max(i.vw, fastest) + TINY)
-        step = ti.min(step, self.stepper.force * ti.sqrt(i.h / (total.v.norm() + TINY)))
-        if ti.static("u" in self.totals and "u" in self.p.members):
-            step = ti.min(step, self.stepper.cool * i.u / (ti.max(-total.u, 0.0) + TINY))
+        step = ti.min(self.signal_step(i, fastest), self.force_step(i, total), self.heat_step(i, total))
         for term in ti.static(self.dt_terms):
             step = ti.min(step, term.max_dt(i, now))
         for term in ti.static(self.sum_dt_terms):

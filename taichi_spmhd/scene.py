@@ -12,6 +12,7 @@ from .density import SumMass, Summation
 from .energy import Energy, Thermal
 from .eos import Adiabatic, Radiating
 from .errors import InputError
+from .guard import Guard
 from .kernels import CubicSpline, Kernel
 from .picture import Picture, suggestion
 from .scene_checks import check, check_kinds, numbers
@@ -29,7 +30,8 @@ class Scene:
     "cs"), "B", "psi", "mass"}, arrays (N,) or (N, 3) or numbers; terms: the effects; eos, kernel, density, energy,
     stepper, boundary: one choice each. exact(x, t) -> {member: array}: the solution where there is one, `measure` the
     member whose error is quoted; reference: path of a stored map to compare with at its time
-    (diagnostics/reference.py). Without "mass" the mass is rho times volume / N.
+    (diagnostics/reference.py); guard: how far a run may stray before it is stopped. Without "mass" the mass is rho
+    times volume / N.
     """
 
     box: Box
@@ -42,6 +44,7 @@ class Scene:
     energy: Energy = field(default_factory=Thermal)
     stepper: object = field(default_factory=LeapfrogKDK)
     boundary: Boundary = field(default_factory=everywhere)
+    guard: Guard = field(default_factory=Guard)
     t_end: float = 1.0
     picture: Picture = field(default_factory=Picture)
     exact: Callable | None = None

@@ -9,6 +9,7 @@ from .boundary import Boundary
 from .density import Summation
 from .energy import Energy
 from .errors import InputError
+from .guard import Guard
 from .kernels import Kernel
 from .stepper import Stepper
 from .terms import Choice, Part
@@ -23,6 +24,7 @@ KINDS = {
     "stepper": Stepper,
     "kernel": Kernel,
     "boundary": Boundary,
+    "guard": Guard,
 }
 
 
@@ -54,6 +56,7 @@ EXAMPLES = {
     "stepper": "LeapfrogKDK()",
     "kernel": "CubicSpline()",
     "boundary": "Boundary(x=Periodic())",
+    "guard": "Guard(drift=0.05)",
 }
 GIVEN = {"x", "v", "m", "h", "rho", "Omega"}  # members every particle has
 CURES = {

@@ -8,6 +8,7 @@ from functools import cache
 import numpy as np
 
 from .cells import ROUNDOFF, Cells
+from .cures import STRAYED
 from .errors import RunError
 from .finder import BLOCK, LANES, Finder
 from .particles import Particles
@@ -43,7 +44,7 @@ class Search:
         self.finder = finder(box, boundary.periodic, tuple((image, code_of(image)) for image in boundary.images))
         self.cells = Cells(particles, box, boundary.periodic)
         n = particles.n
-        self.width = LANES * int(np.ceil(1.6 * expected / LANES))
+        self.width, self.fewest = LANES * int(np.ceil(1.6 * expected / LANES)), n  # fewest: in a row, itself included
         self.near, self.count = ti.ndarray(ti.i32, (n, self.width)), ti.ndarray(ti.i32, n)
         self.inner = ti.ndarray(ti.i32, n)
         self.at = ti.ndarray(ti.f32, (self.dim + 1, n + BLOCK))  # compact copies of x0 and of the squared radius
@@ -68,18 +69,17 @@ class Search:
         share = (INNER / pad) ** 2
         most = self.fill_rows(share)
         if most > self.width and 4.0 * self.p.n * most > MOST_BYTES:
-            raise RunError(
-                f"neighbours: a particle has {most} of them, a list of {4e-9 * self.p.n * most:.0f} GB; "
-                "one has strayed far from all others, or smoothing lengths differ too much"
-            )
+            what = f"neighbours: a particle has {most} of them, a list of {4e-9 * self.p.n * most:.0f} GB"
+            raise RunError(what, STRAYED, "one has strayed far from all others, or smoothing lengths differ too much")
         if most > self.width:
             self.width = LANES * int(np.ceil(1.25 * most / LANES))
             self.near = ti.ndarray(ti.i32, (self.p.n, self.width))
             self.fill_rows(share)
 
     def fill_rows(self, share: float) -> int:
-        """All rows; returns the largest count."""
+        """All rows; returns the largest count, and notes the smallest."""
         cells = self.cells
         narrow = any(cells.shape[a] < 3 and self.periodic[a] for a in range(self.dim))
         rows, grid = (self.near, self.count, self.inner), (cells.cell_of, cells.grid, cells.shape)
-        return self.finder.fill(*rows, cells.first, self.at, self.bit, share, *grid, narrow)
+        most, self.fewest = self.finder.fill(*rows, cells.first, self.at, self.bit, share, *grid, narrow)
+        return most

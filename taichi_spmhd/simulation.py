@@ -7,7 +7,7 @@ import numpy as np
 
 from . import runtime, state
 from .errors import InputError, RunError
-from .failure import fail
+from .failure import collapsed, stepped
 from .lanes import best as lanes
 from .neighbours import Neighbours
 from .pairs import Pairs
@@ -18,6 +18,7 @@ from .sliding import Sliding
 from .smoothing import Density
 from .stepper import Advance
 from .types import integer
+from .watch import Watch
 
 SMALLEST_STEP = 1e-10  # of the time to simulate: a step shorter than this has collapsed
 
@@ -59,7 +60,7 @@ class Simulation:
         p.companions.append((p.old, p.rate))
         self.sliding = None if spare is None else Sliding((*parts, scene.stepper), p.tree)
         p.finish()
-        self.neighbours = Neighbours(p, scene.box, scene.boundary, kernel)
+        self.neighbours, self.watch = Neighbours(p, scene.box, scene.boundary, kernel), Watch(p)
         self.pairs = Pairs(p, scene.box, scene.boundary, lanes())
         self.one_by_one = Pairs(p, scene.box, scene.boundary, 1)  # what is measured once a frame: compiles much faster
         self.density = Density(p, self.pairs, kernel, scene.density)
@@ -101,14 +102,13 @@ class Simulation:
         self.begin()
         dt = self.longest if dt is None else dt
         if not self.longest > SMALLEST_STEP * self.scene.t_end or not dt > 0 or self.time + dt == self.time:
-            fail(self, f"the time step collapsed to {min(dt, self.longest):.3g}")
+            raise collapsed(self, f"the time step collapsed to {min(dt, self.longest):.3g}", self.time)
         clock = time.perf_counter()
         self.dt = dt
-        self.longest = self.scene.stepper.step(self, dt)
-        if self.ill:
-            fail(self, "not finite or negative thermal energy")
+        self.longest = stepped(self, dt)
         if self.rhs.keys["settle"]:
             self.rhs.settle(self.time, dt, self.rhs.moment.most)
+        self.watch.look(self)
         self.time += dt
         self.steps += 1
         spent = time.perf_counter() - clock

@@ -57,7 +57,8 @@ class Formulas(Reference):
         alpha = alpha + 0 * rho
         qi = -0.5 * share * rho[:, None] * (alpha[:, None] * ci - beta * mu) * mu
         qj = -0.5 * share * rho[None] * (alpha[None] * cj - beta * mu) * mu
-        return {"v": -self.sum(qi * self.Gi + qj * self.Gj), "u": (qi * self.Gi * mu).sum(1)}
+        Gi, Gj = self.evened()
+        return {"v": -self.sum(qi * Gi + qj * Gj), "u": (qi * Gi * mu).sum(1)}
 
     def form_b(self, alpha, beta, directional=False):
         slope = [cubic(self.r / h)[1] / h**3 for h in (self.h[:, None], self.h[None])]
@@ -95,7 +96,8 @@ class Formulas(Reference):
 
     def conduction(self, alpha):
         u, rho = self.c["u"], self.rho
-        weight = 0.5 * alpha * abs(self.mu) * (rho[:, None] * self.Gi + rho * self.Gj)
+        Gi, Gj = self.evened()
+        weight = 0.5 * alpha * abs(self.mu) * (rho[:, None] * Gi + rho * Gj)
         return {"u": (weight * (u[:, None] - u)).sum(1)}
 
     def step(self, rates, closing=None, exchange=None):

@@ -93,16 +93,23 @@ class Reference:
         force = -xi * self.S()[:, None] * self.c["B"]
         return {"v": force, "leak_v": force, "leak_E": dot(force, self.c["v"])}
 
+    def evened(self):
+        """s_i Gi, s_j Gj: the harmonic mean of both sides between unequal masses."""
+        m, both = self.c["m"], self.c["m"][:, None] + self.c["m"]
+        return 2 * m / both * self.Gi, 2 * m[:, None] / both * self.Gj
+
     def viscosity(self, alpha, beta):
         mu, vw, rho = np.minimum(self.mu, 0), self.c["vw"], self.rho
         qi = -0.5 * rho[:, None] * ((alpha * vw)[:, None] - beta * mu) * mu
         qj = -0.5 * rho * (alpha * vw - beta * mu) * mu
-        return {"v": -self.sum(qi * self.Gi + qj * self.Gj), "u": (qi * self.Gi * mu).sum(1)}
+        Gi, Gj = self.evened()
+        return {"v": -self.sum(qi * Gi + qj * Gj), "u": (qi * Gi * mu).sum(1)}
 
     def conductivity(self, alpha):
         P, u, rho = self.c["P"], self.c["u"], self.rho
         v_u = np.sqrt(2 * abs(P[:, None] - P) / (rho[:, None] + rho))
-        return {"u": 0.5 * alpha * (v_u * (u[:, None] - u) * (rho[:, None] * self.Gi + rho * self.Gj)).sum(1)}
+        Gi, Gj = self.evened()
+        return {"u": 0.5 * alpha * (v_u * (u[:, None] - u) * (rho[:, None] * Gi + rho * Gj)).sum(1)}
 
     def resistivity(self, alpha):
         v_B = np.linalg.norm(self.vij - self.mu[..., None] * self.e, axis=-1)  # the transverse velocity

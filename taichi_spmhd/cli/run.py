@@ -108,5 +108,6 @@ def verdict(errors: dict, folder) -> int:
     from .main import DONE, WENT_WRONG, complain
 
     for label, error in errors.items():
-        complain(f"{label}: {error}; last good state: {folder.state(label)}", WENT_WRONG)
+        drawn = f"; the place: {folder.failure(label)}" if folder.failure(label).exists() else ""
+        complain(f"{label}: {error}; last good state: {folder.state(label)}{drawn}", WENT_WRONG)
     return WENT_WRONG if errors else DONE

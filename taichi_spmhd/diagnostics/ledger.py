@@ -17,17 +17,19 @@ from ..eos import Radiating
 
 @dataclass
 class Ledger:
-    """Energy E0 and momentum p0 (3,) at the start; v_rms: the largest r.m.s. velocity at any reading so far."""
+    """Energy E0, momentum p0 (3,), the largest h (`widest`) at the start; v_rms: the largest at any reading so far."""
 
     E0: float
     p0: np.ndarray
     v_rms: float
+    widest: float
 
     @classmethod
     def opened(cls, sim) -> "Ledger":
         """The entries of the present state, which is the start."""
         columns = sim.columns()
-        return cls(energies(sim, columns)["E_tot"], momentum(sim, columns), speed(columns))
+        E0, p0 = energies(sim, columns)["E_tot"], momentum(sim, columns)
+        return cls(E0, p0, speed(columns), float(columns["h"].max()))
 
 
 def total(columns: dict, values) -> float:

@@ -18,7 +18,7 @@ CURES = {
 class Folder:
     """The files of a run: frames/0000.png, history_*.csv, state_*.npz, summary.json, table.md, film, and run.json.
 
-    run.json says what the run is and so which files are its own.
+    failure_*.png is the place where a variant went wrong. run.json says what the run is and so which files are its own.
     """
 
     def __init__(self, root):
@@ -51,6 +51,10 @@ class Folder:
     def state(self, label: str) -> Path:
         return self.root / f"state_{slug(label)}.npz"
 
+    def failure(self, label: str) -> Path:
+        """The place where a variant went wrong."""
+        return self.root / f"failure_{slug(label)}.png"
+
     def film(self, record: dict) -> Path:
         return self.root / f"{record['scene']}.{record['movie']}"
 
@@ -61,7 +65,8 @@ class Folder:
 
     def own(self, record: dict) -> list[Path]:
         """Every file that a run with this record writes, run.json left out."""
-        each = [path for label in record["variants"] for path in (self.history(label), self.state(label))]
+        kinds = (self.history, self.state, self.failure)
+        each = [kind(label) for label in record["variants"] for kind in kinds]
         table = [self.table] if len(record["variants"]) > 1 else []
         return [self.summary, *table, self.film(record), *each, *map(self.frame, range(record["frames"]))]
 

@@ -6,6 +6,7 @@ from ..errors import RunError
 from ..scene_code import code_of
 from ..simulation import Simulation
 from . import history
+from .failed import photograph
 from .film import Film
 from .folder import Folder
 from .plan import Plan
@@ -120,7 +121,7 @@ class Run:
 
     def fail(self, label: str, error: RunError) -> None:
         """Note what went wrong and put the variant back to its last good state; the others go on."""
-        self.errors[label] = one_line(error)
+        self.errors[label] = one_line(error) + photograph(self.sims[label], error, self.folder.failure(label))
         self.folder.update(errors=self.errors)
         self.sims[label].close()
         self.sims[label] = Simulation.load(self.folder.state(label), self.plan.variants[label])
