@@ -16,7 +16,6 @@ import numpy as np
 from taichi_spmhd import (
     Boundary,
     Frozen,
-    Heun,
     InputError,
     LocallyIsothermal,
     Periodic,
@@ -66,7 +65,6 @@ def scenes(nx: int = 48, finer: int = 0, c_hot: float = 5.0, dim: Literal[1, 2] 
         start=start,
         eos=LocallyIsothermal(),
         density=SumVolume(),
-        stepper=Heun(),  # viscosity between such unequal masses is stiff: the leapfrog heats four times too much
         boundary=Boundary(x=(Reflecting(), Frozen(STILL * LENGTH / nx)), y=Periodic()),
         terms=(Pressure(), Viscosity()),
         t_end=t_end,

@@ -4,7 +4,7 @@ import numpy as np
 
 from .cures import CAUSES, COLLAPSED, NEGATIVE, NOT_FINITE, STRAYED, cure
 from .errors import RunError
-from .shares import FORCE, SIGNAL, loudest, slowest
+from .shares import FORCE, HEAT, SIGNAL, loudest, slowest
 from .suspects import coldest, spoilt, suspect
 
 
@@ -58,6 +58,8 @@ def collapsed(sim, what: str, t: float) -> RunError:
     if "u" in columns and not columns["u"].min() > 0:
         return explained(sim, f"{what}, thermal energy has run out", NEGATIVE, coldest(sim, columns))
     memory, limit = slowest(sim, t)
+    if limit == HEAT:
+        return explained(sim, f"{what}, thermal energy runs out", NEGATIVE, (memory, "u"))
     term = None if limit in (SIGNAL, FORCE) else limit
     return explained(sim, f"{what}, limited by {limit}", COLLAPSED, (memory, "v"), term)
 

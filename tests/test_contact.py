@@ -84,11 +84,13 @@ def test_the_shell_follows_the_thin_shell_solution_and_its_pressure_is_smooth():
             if sim.time > 0:
                 place, hot, cold = pressures(sim)
                 assert place == pytest.approx(float(exact.thin_shell(sim.time).X), rel=0.05)
-        rho = sim["rho"][np.argsort(sim["x"][:, 0])]
-    # hot gas 1 but for waves of 4 %, the last particle .91; the first cold one .63: they feel the
+        rho, kept = sim["rho"][np.argsort(sim["x"][:, 0])], sim.summary()
+    # friction between masses in the ratio 1250 is not too fast for the step: measured 7e-5
+    assert kept["energy_drift"] == pytest.approx(kept["energy_drift_predicted"], rel=1e-3)
+    # hot gas 1 but for waves of 6 %, the last particle 1.20; the first cold one .76: they feel the
     # spacing, which differs by two there. In the shell P rises by 35 % towards the shock, since it is braked
-    assert hot[:-3].min() > 0.9 and hot.max() < 1.1 and hot[-1] > 0.7
-    assert cold[0] > 0.5 and abs(cold[1:8] - 1).max() < 0.2
+    assert hot[:-3].min() > 0.9 and hot[:-1].max() < 1.1 and 0.7 < hot[-1] < 1.3
+    assert cold[0] > 0.65 and abs(cold[1:8] - 1).max() < 0.2
     assert rho[len(hot)] > 1000 * rho[len(hot) - 1]  # measured above 1600: rho jumps from one particle to the next
 
 

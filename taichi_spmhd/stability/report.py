@@ -70,11 +70,12 @@ def largest(rows: list[dict], measure: str) -> str:
 
 def troubles(rows: list[dict]) -> list[str]:
     """Every trial that is not sound: when, where and why."""
-    return [
-        f"- {SIGNS[row['verdict']]}: `{row['case']}` at {row['hard']} = {shown(row['value'])}, {row['preset']}: {why(row)}"
-        for row in rows
-        if row["verdict"] != SOUND
-    ]
+    return [f"- {SIGNS[row['verdict']]}: {named(row)}: {why(row)}" for row in rows if row["verdict"] != SOUND]
+
+
+def named(row: dict) -> str:
+    """Case, value and preset."""
+    return f"`{row['case']}` at {row['hard']} = {shown(row['value'])}, {row['preset']}"
 
 
 def why(row: dict) -> str:

@@ -35,7 +35,7 @@ def parting(mach: float, nx: int) -> Problem:
         v = mach * np.sign(x[:, 0])
         return {"rho": 1.0, "P": P, "v": np.stack([v, 0 * v, 0 * v], axis=1), "B": [0.0, 0.5, 0.0]}
 
-    return Problem(((-0.5, 0.5),), x, start, 0.3 / mach, boundary=Boundary(x=Open()))
+    return Problem(((-0.5, 0.5),), x, start, 1.0 / mach, boundary=Boundary(x=Open()))
 
 
 def orszag_tang(speed: float, nx: int) -> Problem:

@@ -1,5 +1,7 @@
 """Jumps: of masses, of densities, of smoothing lengths, of pressures."""
 
+from math import inf
+
 import numpy as np
 
 from ...boundary import Boundary, Reflecting
@@ -46,13 +48,15 @@ def pressures(ratio: float, nx: int) -> Problem:
     return Problem(box, line(box, nx), start, 0.1 / np.sqrt(ratio), boundary=Boundary(x=Reflecting()))
 
 
+WALLED = Limits(energy=0.02, momentum=inf, close=0.02)  # walls take momentum
+
 CASES = (
     Case("mass_ratio", "a slab of heavier particles flies through the box, density by volume", "ratio", masses,
          (8.0, 100.0), (1e3,), (48, 28)),
     Case("density_jump", "the same, the slab ten thousand times denser", "ratio",
          masses, (1e4,), (1e6, 1e8), (48, 28)),
     Case("h_ratio", "a magnetised tube of equal masses, rho and P jump together", "ratio", spacings,
-         (10.0, 100.0), (300.0, 1000.0), (400, 200), Limits(energy=0.02, close=0.02)),
+         (10.0, 100.0), (300.0, 1000.0), (400, 200), WALLED),
     Case("pressure_jump", "a tube of one density, the pressure jumps", "ratio", pressures,
-         (1e3, 1e6, 3e10), (1e13, 1e16), (200, 100), Limits(energy=0.02, close=0.02)),
+         (1e3, 1e6, 3e10), (1e13, 1e16), (200, 100), WALLED),
 )  # fmt: skip
