@@ -123,3 +123,20 @@ def contents(folder) -> dict:
         elif path.is_file():
             found[name] = path.read_bytes()
     return found
+
+
+class Killed(BaseException):
+    """Nothing catches this, as nothing catches SIGKILL."""
+
+
+def kill_at(monkeypatch, owner, name: str, count: int):
+    """Die instead of the count-th call of a function."""
+    calls, own = [], getattr(owner, name)
+
+    def dies(*given, **more):
+        calls.append(0)
+        if len(calls) == count:
+            raise Killed
+        return own(*given, **more)
+
+    monkeypatch.setattr(owner, name, dies)

@@ -18,6 +18,8 @@ CURES = {
 class Folder:
     """The files of a run: frames/0000.png, history_*.csv, state_*.npz, summary.json, table.md, film, and run.json.
 
+    Beside a state stands the one before it, state_*.previous.npz, as long as the run has not ended.
+
     run.json says what the run is and so which files are its own.
     """
 
@@ -51,6 +53,10 @@ class Folder:
     def state(self, label: str) -> Path:
         return self.root / f"state_{slug(label)}.npz"
 
+    def previous(self, label: str) -> Path:
+        """The state before the last, which a run keeps until it has ended."""
+        return self.root / f"state_{slug(label)}.previous.npz"
+
     def film(self, record: dict) -> Path:
         return self.root / f"{record['scene']}.{record['movie']}"
 
@@ -61,7 +67,8 @@ class Folder:
 
     def own(self, record: dict) -> list[Path]:
         """Every file that a run with this record writes, run.json left out."""
-        each = [path for label in record["variants"] for path in (self.history(label), self.state(label))]
+        kinds = (self.history, self.state, self.previous)
+        each = [path(label) for label in record["variants"] for path in kinds]
         table = [self.table] if len(record["variants"]) > 1 else []
         return [self.summary, *table, self.film(record), *each, *map(self.frame, range(record["frames"]))]
 
@@ -105,12 +112,17 @@ class Folder:
         self.sweep()
         return before
 
+    def end(self) -> None:
+        """The run has ended: run.json says so, and then the states before the last may go."""
+        self.update(finished=True)
+        self.sweep()
+
     def sweep(self) -> None:
-        """Remove what killed runs left half written."""
-        for folder in (self.root, self.frames):
-            for part in folder.glob(".*.part*"):
-                with suppress(OSError):
-                    os.remove(part)
+        """Remove what killed runs left half written, and what only a run on its way needs."""
+        over = map(self.previous, self.record["variants"]) if self.record.get("finished") else ()
+        for part in (*self.root.glob(".*.part*"), *self.frames.glob(".*.part*"), *over):
+            with suppress(OSError):
+                os.remove(part)
 
 
 def difference(name: str, before, now) -> str:
