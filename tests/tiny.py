@@ -1,6 +1,8 @@
 """Scene files small enough to run in a test, and what the tests of the commands have in common."""
 
+import io
 import json
+from contextlib import redirect_stderr, redirect_stdout
 
 import numpy as np
 
@@ -90,6 +92,17 @@ def refused(capsys, *words) -> str:
     lines = capsys.readouterr().err.strip().splitlines()
     assert len(lines) == 1 and lines[0].startswith("spmhd: error: ")
     return lines[0]
+
+
+def one_line(*words, codes=(0, 2)) -> str:
+    """What a command says on stderr: nothing with exit code 0, one line otherwise; any other end is a mistake."""
+    said = io.StringIO()
+    with redirect_stderr(said), redirect_stdout(io.StringIO()):
+        code = spmhd(*words)
+    lines = said.getvalue().splitlines()
+    assert code in codes and len(lines) == (code != 0), f"{words}: exit code {code}: {said.getvalue()}"
+    assert code == 0 or lines[0].startswith("spmhd: error: "), lines
+    return lines[0] if lines else ""
 
 
 def line_of(text: str, words: str) -> int:

@@ -8,6 +8,7 @@ from ..errors import InputError
 from ..library import slug
 from ..replacing import replacing
 from .files import as_json, put, read_json, write_text, writing
+from .record import sound
 
 CURES = {
     "scene file": "the scene file has changed since the run was started; start anew without --resume",
@@ -63,7 +64,7 @@ class Folder:
     def earlier(self) -> dict | None:
         """What run.json says of the run in this folder."""
         record = read_json(self.root / "run.json")
-        return record if isinstance(record, dict) and {"scene", "variants", "frames", "movie"} <= set(record) else None
+        return record if sound(record) else None
 
     def own(self, record: dict) -> list[Path]:
         """Every file that a run with this record writes, run.json left out."""
@@ -77,7 +78,8 @@ class Folder:
         before = self.earlier()
         if before and before["scene"] != record["scene"]:
             raise InputError(f"--out {self.root} holds a run of {before['scene']}; choose another folder with --out")
-        strange = [path for path in self.own(record) if path.exists()] if before is None else []
+        ours = (self.root / "run.json", *self.own(record))
+        strange = [path for path in ours if path.exists()] if before is None else []
         if strange:
             raise InputError(f"{strange[0]} is there, but no run of ours made it; choose another folder with --out")
 
@@ -101,6 +103,10 @@ class Folder:
     def take_up(self, record: dict) -> dict:
         """The record of the run to be continued. Raises InputError if there is none or if it was another."""
         before = self.earlier()
+        if before is None and (self.root / "run.json").exists():
+            raise InputError(
+                f"--resume: {self.root / 'run.json'} is damaged, or of no run of ours; start anew elsewhere"
+            )
         if before is None:
             raise InputError(f"--resume: there is no run in {self.root}; leave out --resume to start one")
         for name, value in record.items():
@@ -131,7 +137,7 @@ def difference(name: str, before, now) -> str:
         own = f"the run in this folder is of {before}, not {now}; " if name == "scene" else ""
         return own + CURES[name]
     if name == "parameters":
-        before = before or {}
-        name = next(key for key in {**now, **before} if now.get(key) != before.get(key))
+        before = before if isinstance(before, dict) else {}
+        name = next((key for key in {**now, **before} if now.get(key) != before.get(key)), "parameters")
         before, now = before.get(name), now.get(name)
     return f"the started run had {name} = {before}, now it is {now}; give the same, or start anew without --resume"
