@@ -88,23 +88,22 @@ def admit(sim, path, saved: dict) -> None:
         raise InputError(
             f"{path}: saved in {saved['precision']}, this process runs {runs}; add --precision {saved['precision']}"
         )
-    if str(saved.get("scene")) != sim.scene.sketch():
-        raise InputError(
-            f"{path}: saved by another scene, {saved.get('scene')}; give the scene and parameters the run had"
-        )
+    if str(saved["scene"]) != sim.scene.sketch():
+        raise InputError(f"{path}: saved by another scene, {saved['scene']}; give the scene and parameters the run had")
     kept = own(sim)
-    if list(saved.get("columns", ())) != list(columns(sim)[kept]):
-        other = sorted(set(saved.get("columns", ())) ^ set(columns(sim)[kept]))
+    if list(saved["columns"]) != list(columns(sim)[kept]):
+        other = sorted(set(saved["columns"]) ^ set(columns(sim)[kept]))
         raise InputError(
             f"{path}: saved by a scene with other members ({', '.join(other)}); list the terms the run had"
         )
     rates = p.rates()
     wanted = {f"rate_{name}": rates[name] for name in own_rates(sim)}
-    check_alike(path, saved, {"table": p.table()[0][:, kept], "p0": np.zeros(3), **wanted})
+    now, ids = p.table()
+    check_alike(path, saved, {"table": now[:, kept], "ids": ids, "p0": np.zeros(3), **wanted})
     numbers = {name: number(path, saved, name) for name in (*NUMBERS, *COUNTS, *STORY, "E0", "v_rms")}
     table = np.zeros((p.n, p.width), saved["table"].dtype)
     table[:, kept] = saved["table"]
-    p.admit(table, saved["ids"].astype(np.int32))
+    p.admit(table, saved["ids"])
     p.admit_rates({name: saved.get(f"rate_{name}", rate) for name, rate in rates.items()})
     sim.neighbours.retell(numbers)
     try:

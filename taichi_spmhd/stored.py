@@ -7,6 +7,7 @@ from .errors import InputError
 FORMAT = 1
 NUMBERS = ("time", "dt", "longest", "seconds", "seconds_compile")
 COUNTS = ("steps", "timed", "floors")
+TEXTS = {"precision": 0, "scene": 0, "columns": 1}  # axes of each
 SIGNED = ("E0", "used")  # what may be below 0
 CURE = "remove it and start anew without --resume"
 
@@ -22,6 +23,8 @@ def read(path) -> dict[str, np.ndarray]:
             saved = {name: file[name] for name in file.files}
         version, table = int(saved["format"]), saved["table"]
         whole = table.ndim == 2 and np.array_equal(np.sort(saved["ids"]), np.arange(len(table)))
+        if any(saved[name].dtype.kind != "U" or saved[name].ndim != axes for name, axes in TEXTS.items()):
+            raise ValueError("no text")
     except FileNotFoundError as error:
         raise Lost(f"{path}: there is no such state; leave out --resume to start anew") from error
     except Exception as error:  # a wrong byte can come up in any layer: archive, compression, header, array
