@@ -121,9 +121,9 @@ def most_run(count: int, several: float = 0.5) -> None:
 
 
 def test_random_scenes_run_or_are_refused_in_one_line():
-    most_run(6)
+    most_run(5)
 
 
 @pytest.mark.slow
 def test_many_random_scenes_run_or_are_refused_in_one_line():
-    most_run(80)
+    most_run(60)
