@@ -13,6 +13,7 @@ import taichi_spmhd
 from taichi_spmhd import InputError, Simulation
 from taichi_spmhd.checkpoint import admit
 from taichi_spmhd.diagnostics.reference import loaded
+from taichi_spmhd.render import write_gif, write_png
 from taichi_spmhd.stored import read
 
 OPENED = Path(__file__).parent / "opened"  # what the pickle below would make
@@ -133,3 +134,17 @@ def test_no_file_of_the_package_unpickles():
         text = path.read_text()
         assert text.count("np.load(") == text.count("allow_pickle=False"), path
         assert not any(word in text for word in ("import pickle", "import shelve", "import marshal", "joblib")), path
+
+
+@settings(max_examples=40)
+@given(at=SHARE, new=st.binary(max_size=20), length=st.integers(1, 60))
+def test_a_damaged_frame_is_named_or_makes_a_film(tmp_path_factory, at, new, length):
+    folder = tmp_path_factory.mktemp("film")
+    write_png(folder / "0000.png", np.random.default_rng(0).integers(0, 255, (24, 24, 3), np.uint8))
+    content = (folder / "0000.png").read_bytes()
+    k = int(at * len(content))
+    (folder / "0001.png").write_bytes(content[:k] + new + content[k + length :])
+    try:
+        write_gif(folder / "film.gif", [folder / "0000.png", folder / "0001.png"])
+    except InputError as error:
+        assert "0001.png cannot be read" in str(error) or "frame 1 is" in str(error)
