@@ -1,38 +1,31 @@
 """The state of a run on disk: all it takes to go on with the same bits, written whole or not at all."""
 
-import os
-import zipfile
-import zlib
 from pathlib import Path
 
 import numpy as np
 
 from .diagnostics.ledger import Ledger
-from .errors import InputError
+from .errors import InputError, RunError
 from .neighbours import STORY
 from .particles import COLD, HOT
 from .replacing import replacing
+from .stored import COUNTS, CURE, FORMAT, LEDGER, NUMBERS, Lost, check_alike, number, read
 
-FORMAT = 2  # 2: the largest h at the start, and the step at the last look
 WORDS = {8: "f64", 4: "f32"}
-NUMBERS = ("time", "dt", "longest", "seconds", "seconds_compile")
-COUNTS = ("steps", "timed", "floors")
-UNREADABLE = (OSError, ValueError, EOFError, KeyError, zipfile.BadZipFile, zlib.error, NotImplementedError)
 
 
-def save(sim, path) -> None:
+def save(sim, path, previous=None) -> None:
     """Write the state to `path` (.npz); a file that is there stays as it was until the new one is complete.
 
-    Members are kept in memory order with the positions x0 of the last list build, so the list can be made again as it
-    was; rates of the last evaluation belong to the state too. Raises InputError where the disk refuses.
+    previous: where it stays after that. Members are kept in memory order with the positions x0 of the last list build,
+    so the list can be made again as it was; rates of the last evaluation belong to the state too. Raises InputError
+    where the disk refuses.
     """
     sim.begin()
     path = Path(path)
     try:
-        with replacing(path) as part, open(part, "wb") as file:
+        with replacing(path, previous=previous) as part, open(part, "wb") as file:
             np.savez(file, **content(sim))
-            file.flush()
-            os.fsync(file.fileno())
     except OSError as error:
         why = error.strerror or error
         raise InputError(f"cannot write {path}: {why}; free space or choose another folder (--out DIR)") from error
@@ -71,7 +64,7 @@ def own_rates(sim) -> set:
 def load(cls, path, scene, spare=None):
     """A Simulation of `scene` that goes on where save stopped, to the same bits.
 
-    Raises InputError for a file that is missing, damaged, foreign, or of another scene or precision.
+    Raises Lost for a file that is missing or damaged, InputError for one of another scene or precision.
     """
     saved = read(path)
     count, given = len(saved["table"]), len(scene.positions)
@@ -87,28 +80,6 @@ def load(cls, path, scene, spare=None):
     return sim
 
 
-def read(path) -> dict[str, np.ndarray]:
-    """All arrays of the file, checked for what can be checked without a scene."""
-    try:
-        with np.load(path, allow_pickle=False) as file:
-            saved = {name: file[name] for name in file.files}
-        version, table = int(saved["format"]), saved["table"]
-        whole = table.ndim == 2 and np.array_equal(np.sort(saved["ids"]), np.arange(len(table)))
-    except FileNotFoundError as error:
-        raise InputError(f"{path}: there is no such state; leave out --resume to start anew") from error
-    except (*UNREADABLE, AttributeError, TypeError) as error:
-        raise InputError(
-            f"{path}: not a state of a run, or damaged; remove it and start anew without --resume"
-        ) from error
-    if version != FORMAT:
-        raise InputError(f"{path}: state format {version}, this version reads {FORMAT}; start anew without --resume")
-    bad = [name for name, values in saved.items() if values.dtype.kind == "f" and not np.isfinite(values).all()]
-    if bad or not whole:
-        what = f"{bad[0]} is not finite" if bad else "particles are missing or double"
-        raise InputError(f"{path}: {what}; remove it and start anew without --resume")
-    return saved
-
-
 def admit(sim, path, saved: dict) -> None:
     """Put a checked file into a simulation just built."""
     p = sim.particles
@@ -117,28 +88,29 @@ def admit(sim, path, saved: dict) -> None:
         raise InputError(
             f"{path}: saved in {saved['precision']}, this process runs {runs}; add --precision {saved['precision']}"
         )
-    if str(saved.get("scene")) != sim.scene.sketch():
-        raise InputError(
-            f"{path}: saved by another scene, {saved.get('scene')}; give the scene and parameters the run had"
-        )
-    try:
-        rates = {**p.rates(), **{name: saved[f"rate_{name}"] for name in own_rates(sim)}}
-        numbers = {name: saved[name].item() for name in (*NUMBERS, *COUNTS, *STORY, "E0", "v_rms", "widest", "before")}
-        ledger = Ledger(numbers["E0"], saved["p0"], numbers["v_rms"], numbers["widest"])
-    except (KeyError, ValueError) as error:
-        raise InputError(f"{path}: {error} is missing; give the scene and parameters the run had") from error
+    if str(saved["scene"]) != sim.scene.sketch():
+        raise InputError(f"{path}: saved by another scene, {saved['scene']}; give the scene and parameters the run had")
     kept = own(sim)
-    if list(saved["columns"]) != list(columns(sim)[kept]) or saved["table"].shape != (p.n, kept.sum()):
+    if list(saved["columns"]) != list(columns(sim)[kept]):
         other = sorted(set(saved["columns"]) ^ set(columns(sim)[kept]))
         raise InputError(
             f"{path}: saved by a scene with other members ({', '.join(other)}); list the terms the run had"
         )
+    rates = p.rates()
+    wanted = {f"rate_{name}": rates[name] for name in own_rates(sim)}
+    now, ids = p.table()
+    check_alike(path, saved, {"table": now[:, kept], "ids": ids, "p0": np.zeros(3), **wanted})
+    numbers = {name: number(path, saved, name) for name in (*NUMBERS, *COUNTS, *STORY, *LEDGER)}
     table = np.zeros((p.n, p.width), saved["table"].dtype)
     table[:, kept] = saved["table"]
-    p.admit(table, saved["ids"].astype(np.int32))
-    p.admit_rates(rates)
+    p.admit(table, saved["ids"])
+    p.admit_rates({name: saved.get(f"rate_{name}", rate) for name, rate in rates.items()})
     sim.neighbours.retell(numbers)
-    sim.neighbours.rebuild()
-    sim.ledger, sim.watch.before = ledger, numbers["before"]
+    try:
+        sim.neighbours.rebuild()
+    except RunError as error:
+        raise Lost(f"{path}: {error}; {CURE}") from error
+    sim.ledger = Ledger(numbers["E0"], saved["p0"], numbers["v_rms"], numbers["widest"])
+    sim.watch.before = numbers["before"]
     for name in NUMBERS + COUNTS:
         setattr(sim, name, numbers[name])

@@ -18,7 +18,7 @@ from .errors import InputError
 from .parameters import parameters, settled
 from .picture import suggestion
 from .scene import Scene
-from .scene_code import beside, code_of
+from .scene_code import beside, code_of, compiled
 
 PACKAGE = Path(__file__).resolve().parent
 COST = re.compile(r"\babout [^.;,()]*?\b(?:second|minute|hour|min|s|h)s?\b(?: on [^.;,()]*)?", re.IGNORECASE)
@@ -59,7 +59,7 @@ def docstring(path: Path) -> str:
     """The docstring of a scene file, read without running it; empty where the file is ill."""
     try:
         return ast.get_docstring(ast.parse(path.read_bytes())) or ""
-    except (SyntaxError, ValueError, OSError):
+    except (SyntaxError, ValueError, OSError, RecursionError, MemoryError):
         return ""
 
 
@@ -85,7 +85,7 @@ def _module(path: Path, stamp: tuple) -> ModuleType:
     sys.modules[name] = module
     linecache.checkcache(str(path))  # Taichi reads the source of terms again
     with code_of(path), beside(path):
-        exec(compile(path.read_bytes(), str(path), "exec"), module.__dict__)  # not through a .pyc that may be stale
+        exec(compiled(path), module.__dict__)  # not through a .pyc that may be stale
     if not callable(getattr(module, "scenes", None)):
         raise InputError(f"{path.name} is no scene file: it needs a function scenes(**parameters) -> {{label: Scene}}")
     return module

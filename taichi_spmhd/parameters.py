@@ -10,6 +10,7 @@ from numbers import Integral, Real
 from .errors import InputError
 from .picture import suggestion
 
+LONGEST = 60  # characters of a value in a message
 YES, NO = ("true", "yes", "on", "1"), ("false", "no", "off", "0")
 
 
@@ -65,12 +66,19 @@ def read(parameter: Parameter, value):
     try:
         value = READ.get(parameter.kind, anything)(value)
     except (ValueError, TypeError, ZeroDivisionError, OverflowError) as error:
-        raise InputError(f"{parameter.name}={value}: expected {WHAT[parameter.kind]}, {example}") from error
+        raise InputError(f"{parameter.name}={shown(value)}: expected {WHAT[parameter.kind]}, {example}") from error
     if parameter.choices and value not in parameter.choices:
         names = ", ".join(map(str, parameter.choices))
         near = suggestion(str(value), map(str, parameter.choices))
-        raise InputError(f"{parameter.name}={value}: expected one of {names}{near}")
+        raise InputError(f"{parameter.name}={shown(value)}: expected one of {names}{near}")
     return value
+
+
+def shown(value) -> str:
+    """A value as a message shows it: of one line and no longer than needed to know it again."""
+    text = str(value)
+    text = text if text.isprintable() else repr(text)
+    return text if len(text) <= LONGEST else f"{text[:LONGEST]}..."
 
 
 def whole(value) -> int:

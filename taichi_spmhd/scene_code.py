@@ -4,6 +4,7 @@ import re
 import sys
 from contextlib import contextmanager
 from pathlib import Path
+from types import CodeType
 
 from .errors import InputError, RunError
 
@@ -19,6 +20,16 @@ def line_of(error: BaseException, path: Path) -> int | None:
         trace = trace.tb_next
     inside = re.findall(rf'File "{re.escape(str(path))}", line (\d+)', str(error))  # as Taichi's messages say it
     return int(inside[-1]) if inside else line
+
+
+def compiled(path: Path) -> CodeType:
+    """The code of a scene file. Raises SyntaxError with a line, or InputError where Python names none."""
+    try:
+        return compile(path.read_bytes(), str(path), "exec")
+    except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
+        if isinstance(error, SyntaxError) and error.filename == str(path) and error.lineno:
+            raise
+        raise InputError(f"{path.name} is no Python file: {error or 'it is nested too deeply'}") from error
 
 
 @contextmanager

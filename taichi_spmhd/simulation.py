@@ -174,11 +174,14 @@ class Simulation:
 
         return summary(self)
 
-    def save(self, path) -> None:
-        """Write all it takes to go on with the same bits; an existing file is replaced only by a complete one."""
+    def save(self, path, previous=None) -> None:
+        """Write all it takes to go on with the same bits; only a complete file replaces an existing one.
+
+        previous: where the existing one stays.
+        """
         from .checkpoint import save
 
-        save(self, path)
+        save(self, path, previous)
 
     @classmethod
     def load(cls, path, scene: Scene, spare: tuple | None = None) -> "Simulation":

@@ -4,6 +4,7 @@ import os
 
 import numpy as np
 import pytest
+from hypothesis import HealthCheck, settings
 
 from taichi_spmhd import runtime
 from taichi_spmhd.density import SumMass
@@ -12,6 +13,10 @@ from taichi_spmhd.scene import Scene
 from taichi_spmhd.simulation import Simulation
 
 os.environ["MPLBACKEND"] = "Agg"  # no display
+settings.register_profile(  # the same examples every time, as slow as they are: a simulation compiles for a second
+    "same", derandomize=True, database=None, deadline=None, suppress_health_check=list(HealthCheck), print_blob=False
+)
+settings.load_profile("same")
 
 BOX = (1.0, 1.25)  # of the disordered set, 20 x 25 particles
 

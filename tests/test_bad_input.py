@@ -11,7 +11,7 @@ import pytest
 from tiny import DEVICE, WAVE, contents, line_of, refused, run, spmhd, write
 
 import taichi_spmhd as spmhd_package
-from taichi_spmhd import InputError, runtime
+from taichi_spmhd import InputError, runtime, stored
 from taichi_spmhd.outputs import files
 
 
@@ -125,7 +125,9 @@ def test_a_foreign_folder_is_left_alone(wave, tmp_path, capsys):
     (out / "summary.json").write_text("mine")
     assert "choose another folder" in refused(capsys, "run", wave, "--out", out, *DEVICE)
     (out / "summary.json").unlink()
-    (out / "run.json").write_text('{"scene": "blast", "variants": [], "frames": 3, "movie": "gif"}')
+    (out / "run.json").write_text('{"name": "of another program"}')
+    assert "no run of ours" in refused(capsys, "run", wave, "--out", out, *DEVICE)
+    (out / "run.json").write_text('{"scene": "blast", "variants": ["blast"], "frames": 3, "movie": "gif"}')
     assert "holds a run of blast" in refused(capsys, "run", wave, "--out", out, *DEVICE)
 
 
@@ -157,17 +159,30 @@ def test_a_disk_that_refuses_leaves_the_earlier_run_as_it_was(wave, tmp_path, ca
     assert contents(out) == before
 
 
-@pytest.mark.parametrize("ending", [".npz", ".csv", ".png", "summary.json"])
-def test_a_disk_that_fills_up_on_the_way_can_be_mended(wave, tmp_path, capsys, ending):
-    words = ("run", wave, "--out", tmp_path / "out", *DEVICE, "--variant", "xi = 0", "--frames", "3", "--movie", "none")
+WORDS = (*DEVICE, "--variant", "xi = 0", "--frames", "3", "--movie", "gif")
+
+
+@pytest.fixture(scope="module")
+def undisturbed(tmp_path_factory):
+    """The files of a run on a disk with room."""
+    folder = tmp_path_factory.mktemp("undisturbed")
+    assert spmhd("run", write(folder, WAVE), "--out", folder / "out", *WORDS) == 0
+    return contents(folder / "out")
+
+
+@pytest.mark.parametrize("ending", [".npz", ".csv", ".png", ".gif", "summary.json"])
+def test_a_disk_that_fills_up_on_the_way_can_be_mended(wave, undisturbed, tmp_path, capsys, ending):
+    words = ("run", wave, "--out", tmp_path / "out", *WORDS)
     with pytest.MonkeyPatch.context() as patch:
-        disk(patch, errno.ENOSPC, ending, after=0 if ending == "summary.json" else 1)
+        disk(patch, errno.ENOSPC, ending, after=0 if ending in (".gif", "summary.json") else 1)
         said = refused(capsys, *words)
     assert "cannot write" in said and ("free" in said)
     left = {path.name for path in (tmp_path / "out").rglob("*") if ".part" in path.name}
     assert not left
+    if ending != ".csv":  # that is the first frame's; else the state of an earlier one is whole
+        assert stored.read(tmp_path / "out" / "state_xi_0.npz")["time"] >= 0
     assert spmhd(*words, "--resume") == 0
-    assert (tmp_path / "out" / "summary.json").exists()
+    assert contents(tmp_path / "out") == undisturbed
 
 
 def test_a_folder_that_cannot_be_made_is_refused(wave, tmp_path, capsys, monkeypatch):

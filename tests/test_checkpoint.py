@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from taichi_spmhd import checkpoint, runtime  # noqa: F401  (child processes import * from here)
+from taichi_spmhd import runtime  # noqa: F401  (child processes import * from here)
 from taichi_spmhd.errors import InputError
 from taichi_spmhd.kernels import CubicSpline
 from taichi_spmhd.lattice import jitter, square
@@ -253,7 +253,7 @@ def test_a_full_disk_leaves_the_last_state_as_it_was(tmp_path, simulate, monkeyp
     def full(*_):
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
-    monkeypatch.setattr(checkpoint.os, call, full)
+    monkeypatch.setattr(os, call, full)
     with pytest.raises(InputError, match="No space left on device; free space"):
         sim.save(path)
     assert path.read_bytes() == before

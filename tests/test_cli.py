@@ -9,7 +9,7 @@ import time
 
 import numpy as np
 import pytest
-from tiny import DEVICE, EXPLODES, WAVE, contents, line_of, run, spmhd, write
+from tiny import DEVICE, EXPLODES, WAVE, Killed, contents, kill_at, line_of, run, spmhd, write
 
 from taichi_spmhd import Simulation, library, load_scene
 from taichi_spmhd.outputs import history
@@ -91,23 +91,6 @@ def test_a_finished_run_is_not_run_again(wave, tmp_path, capsys):
     assert run(wave, tmp_path / "out", "--resume") == 0
     assert "is finished" in capsys.readouterr().out
     assert contents(tmp_path / "out") == before
-
-
-class Killed(BaseException):
-    """Nothing catches this, as nothing catches SIGKILL."""
-
-
-def kill_at(monkeypatch, owner, name: str, count: int):
-    """Die instead of the count-th call of a function."""
-    calls, own = [], getattr(owner, name)
-
-    def dies(*given, **more):
-        calls.append(0)
-        if len(calls) == count:
-            raise Killed
-        return own(*given, **more)
-
-    monkeypatch.setattr(owner, name, dies)
 
 
 POINTS = [

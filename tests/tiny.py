@@ -1,6 +1,8 @@
 """Scene files small enough to run in a test, and what the tests of the commands have in common."""
 
+import io
 import json
+from contextlib import redirect_stderr, redirect_stdout
 
 import numpy as np
 
@@ -92,6 +94,17 @@ def refused(capsys, *words) -> str:
     return lines[0]
 
 
+def one_line(*words, codes=(0, 2)) -> str:
+    """What a command says on stderr: nothing with exit code 0, one line otherwise; any other end is a mistake."""
+    said = io.StringIO()
+    with redirect_stderr(said), redirect_stdout(io.StringIO()):
+        code = spmhd(*words)
+    lines = said.getvalue().splitlines()
+    assert code in codes and len(lines) == (code != 0), f"{words}: exit code {code}: {said.getvalue()}"
+    assert code == 0 or lines[0].startswith("spmhd: error: "), lines
+    return lines[0] if lines else ""
+
+
 def line_of(text: str, words: str) -> int:
     """The number of the line in which these words stand."""
     return next(n for n, line in enumerate(text.splitlines(), 1) if words in line)
@@ -123,3 +136,20 @@ def contents(folder) -> dict:
         elif path.is_file():
             found[name] = path.read_bytes()
     return found
+
+
+class Killed(BaseException):
+    """Nothing catches this, as nothing catches SIGKILL."""
+
+
+def kill_at(monkeypatch, owner, name: str, count: int):
+    """Die instead of the count-th call of a function."""
+    calls, own = [], getattr(owner, name)
+
+    def dies(*given, **more):
+        calls.append(0)
+        if len(calls) == count:
+            raise Killed
+        return own(*given, **more)
+
+    monkeypatch.setattr(owner, name, dies)

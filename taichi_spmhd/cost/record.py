@@ -8,6 +8,7 @@ from ..errors import InputError
 from ..outputs.files import as_json, plain, read_json, write_text, writing
 from ..outputs.folder import difference
 from .rows import rows
+from .sound import sound
 
 MAY_GROW = ("vary", "variants", "places")  # a study may be resumed with more settings
 FILES = ("cost.json", "cost.csv", "cost.md", "cost.png")
@@ -40,10 +41,12 @@ class Record:
         before = read_json(self.root / "cost.json")
         if not isinstance(before, dict) or "runs" not in before:
             raise InputError(f"--resume: there is no study in {self.root}; leave out --resume to start one")
+        if not sound(before):
+            raise InputError(f"--resume: {self.root / 'cost.json'} is damaged; start anew without --resume")
         for name, value in self.plan.record().items():
             if name not in MAY_GROW and before.get(name) != value:
                 raise InputError(f"--resume: {difference(name, before.get(name), value)}")
-        self.head["machine"] = before.get("machine", self.head["machine"])  # where and when the runs there were made
+        self.head["machine"] = before["machine"]  # where and when the runs there were made
         there = {setting.key for setting in self.plan.settings}
         self.runs = [run for run in before["runs"] if run["key"] in there and run["round"] < self.plan.repeat]
 

@@ -8,6 +8,7 @@ from ..errors import InputError
 from ..library import slug
 from ..replacing import replacing
 from .files import as_json, put, read_json, write_text, writing
+from .record import sound
 
 CURES = {
     "scene file": "the scene file has changed since the run was started; start anew without --resume",
@@ -18,7 +19,8 @@ CURES = {
 class Folder:
     """The files of a run: frames/0000.png, history_*.csv, state_*.npz, summary.json, table.md, film, and run.json.
 
-    failure_*.png is the place where a variant went wrong. run.json says what the run is and so which files are its own.
+    Beside a state stands the one before it, state_*.previous.npz, as long as the run has not ended; failure_*.png is
+    the place where a variant went wrong. run.json says what the run is and so which files are its own.
     """
 
     def __init__(self, root):
@@ -55,18 +57,22 @@ class Folder:
         """The place where a variant went wrong."""
         return self.root / f"failure_{slug(label)}.png"
 
+    def previous(self, label: str) -> Path:
+        """The state before the last, which a run keeps until it has ended."""
+        return self.root / f"state_{slug(label)}.previous.npz"
+
     def film(self, record: dict) -> Path:
         return self.root / f"{record['scene']}.{record['movie']}"
 
     def earlier(self) -> dict | None:
         """What run.json says of the run in this folder."""
         record = read_json(self.root / "run.json")
-        return record if isinstance(record, dict) and {"scene", "variants", "frames", "movie"} <= set(record) else None
+        return record if sound(record) else None
 
     def own(self, record: dict) -> list[Path]:
         """Every file that a run with this record writes, run.json left out."""
-        kinds = (self.history, self.state, self.failure)
-        each = [kind(label) for label in record["variants"] for kind in kinds]
+        kinds = (self.history, self.state, self.previous, self.failure)
+        each = [path(label) for label in record["variants"] for path in kinds]
         table = [self.table] if len(record["variants"]) > 1 else []
         return [self.summary, *table, self.film(record), *each, *map(self.frame, range(record["frames"]))]
 
@@ -75,7 +81,8 @@ class Folder:
         before = self.earlier()
         if before and before["scene"] != record["scene"]:
             raise InputError(f"--out {self.root} holds a run of {before['scene']}; choose another folder with --out")
-        strange = [path for path in self.own(record) if path.exists()] if before is None else []
+        ours = (self.root / "run.json", *self.own(record))
+        strange = [path for path in ours if path.exists()] if before is None else []
         if strange:
             raise InputError(f"{strange[0]} is there, but no run of ours made it; choose another folder with --out")
 
@@ -99,6 +106,10 @@ class Folder:
     def take_up(self, record: dict) -> dict:
         """The record of the run to be continued. Raises InputError if there is none or if it was another."""
         before = self.earlier()
+        if before is None and (self.root / "run.json").exists():
+            raise InputError(
+                f"--resume: {self.root / 'run.json'} is damaged, or of no run of ours; start anew elsewhere"
+            )
         if before is None:
             raise InputError(f"--resume: there is no run in {self.root}; leave out --resume to start one")
         for name, value in record.items():
@@ -110,12 +121,17 @@ class Folder:
         self.sweep()
         return before
 
+    def end(self) -> None:
+        """The run has ended: run.json says so, and then the states before the last may go."""
+        self.update(finished=True)
+        self.sweep()
+
     def sweep(self) -> None:
-        """Remove what killed runs left half written."""
-        for folder in (self.root, self.frames):
-            for part in folder.glob(".*.part*"):
-                with suppress(OSError):
-                    os.remove(part)
+        """Remove what killed runs left half written, and what only a run on its way needs."""
+        over = map(self.previous, self.record["variants"]) if self.record.get("finished") else ()
+        for part in (*self.root.glob(".*.part*"), *self.frames.glob(".*.part*"), *over):
+            with suppress(OSError):
+                os.remove(part)
 
 
 def difference(name: str, before, now) -> str:
@@ -124,7 +140,7 @@ def difference(name: str, before, now) -> str:
         own = f"the run in this folder is of {before}, not {now}; " if name == "scene" else ""
         return own + CURES[name]
     if name == "parameters":
-        before = before or {}
-        name = next(key for key in {**now, **before} if now.get(key) != before.get(key))
+        before = before if isinstance(before, dict) else {}
+        name = next((key for key in {**now, **before} if now.get(key) != before.get(key)), "parameters")
         before, now = before.get(name), now.get(name)
     return f"the started run had {name} = {before}, now it is {now}; give the same, or start anew without --resume"

@@ -3,6 +3,7 @@
 import os
 from pathlib import Path
 
+from ..errors import InputError
 from .files import write_text, writing
 
 
@@ -21,8 +22,13 @@ def add(path: Path, row: dict) -> None:
         os.fsync(file.fileno())
 
 
-def cut(path: Path, time: float) -> None:
-    """Drop rows later than `time`, and one that a kill left unfinished."""
-    lines = path.read_text(encoding="utf-8").splitlines(keepends=True) if path.exists() else []
-    rows = [line for line in lines[1:] if line.endswith("\n") and float(line.split(",", 1)[0]) <= time]
-    write_text(path, "".join([*lines[:1], *rows]) if rows else "")
+def cut(path: Path, time: float, rows: int) -> None:
+    """Drop rows later than `time`, and one that a kill left unfinished. Raises InputError unless `rows` are left."""
+    try:
+        lines = path.read_text(encoding="utf-8").splitlines(keepends=True) if path.exists() else []
+        kept = [line for line in lines[1:] if line.endswith("\n") and float(line.split(",", 1)[0]) <= time]
+    except ValueError:
+        kept = []
+    if len(kept) != rows:
+        raise InputError(f"{path}: {len(kept)} rows are left of {rows}; it was changed: start anew without --resume")
+    write_text(path, "".join([*lines[:1], *kept]) if kept else "")

@@ -14,6 +14,7 @@ from ..scene import Scene
 from .files import plain
 
 MOVIES = ("gif", "mp4", "none")
+MOST_FRAMES = 100_000  # a day of film; more is a slip of the pen
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,6 +34,8 @@ class Plan:
     def __post_init__(self):
         if self.frames < 1:
             raise InputError(f"--frames {self.frames}: give at least 1 (the last state alone)")
+        if self.frames > MOST_FRAMES:
+            raise InputError(f"--frames {self.frames}: give at most {MOST_FRAMES}")
         if self.movie not in MOVIES:
             raise InputError(f"--movie {self.movie}: choose one of {', '.join(MOVIES)}")
         if self.movie == "mp4" and importlib.util.find_spec("imageio_ffmpeg") is None:

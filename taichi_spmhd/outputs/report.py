@@ -37,7 +37,7 @@ def finish(run: Run) -> dict:
     if len(run.plan.variants) > 1:
         measures = {label: scene.measure for label, scene in run.plan.variants.items()}
         write_text(run.folder.table, comparison(made, measures))
-    run.folder.update(finished=True)
+    run.folder.end()
     return made
 
 

@@ -5,7 +5,7 @@ import time
 from ..errors import RunError
 from ..scene_code import code_of
 from ..simulation import Simulation
-from . import history
+from . import history, states
 from .failed import photograph
 from .film import Film
 from .folder import Folder
@@ -53,18 +53,29 @@ class Run:
     def resume(self) -> None:
         """Go on from the states of an interrupted run; a variant without one starts anew."""
         self.errors = dict(self.folder.record.get("errors", {}))
-        for label, scene in self.plan.variants.items():
+        for label in self.plan.variants:
             self.stop.check()
-            path = self.folder.state(label)
-            with code_of(self.plan.path):
-                sim = Simulation.load(path, scene) if path.exists() else self.made(label)
-            self.sims[label] = sim
-            done = [k for k, t in enumerate(self.plan.times) if t <= sim.time and path.exists()]
-            self.reached[label] = len(done) - 1
-            history.cut(self.folder.history(label), sim.time if done else -1.0)
+            self.sims[label], done = self.taken_up(label)
+            self.reached[label] = done - 1
+            history.cut(self.folder.history(label), self.sims[label].time if done else -1.0, done)
         self.film = Film(self.plan, self.folder)
         for label in self.errors:
             self.film.stop(label, self.sims[label].time)
+
+    def taken_up(self, label: str) -> tuple[Simulation, int]:
+        """A variant as its state says, and how many frames it has behind it."""
+        if not states.any_of(self.folder, label):
+            return self.made(label), 0
+        sim, older = self.last(label)
+        if older and label in self.errors:  # it went wrong after the state that is lost: let it do so again
+            del self.errors[label]
+            self.folder.update(errors=self.errors)
+        return sim, sum(t <= sim.time for t in self.plan.times)
+
+    def last(self, label: str) -> tuple[Simulation, bool]:
+        """A variant as it was last saved, and whether it is the state before, since the last one is lost."""
+        with code_of(self.plan.path):
+            return states.load(self.folder, label, self.plan.variants[label], self.progress.note)
 
     def go(self) -> None:
         """All frames, then the film. Raises Interrupted (all is saved) and InputError (the disk refused)."""
@@ -116,7 +127,7 @@ class Run:
         self.reached[label] = k
 
     def save(self, label: str) -> None:
-        self.sims[label].save(self.folder.state(label))
+        self.sims[label].save(self.folder.state(label), self.folder.previous(label))
         self.saved = time.monotonic()
 
     def fail(self, label: str, error: RunError) -> None:
@@ -124,7 +135,7 @@ class Run:
         self.errors[label] = one_line(error) + photograph(self.sims[label], error, self.folder.failure(label))
         self.folder.update(errors=self.errors)
         self.sims[label].close()
-        self.sims[label] = Simulation.load(self.folder.state(label), self.plan.variants[label])
+        self.sims[label], _ = self.last(label)
         self.film.stop(label, self.sims[label].time)
         self.progress.note(f"{label} went wrong; the others go on" if self.going() else f"{label} went wrong")
 

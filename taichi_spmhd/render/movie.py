@@ -19,10 +19,13 @@ def place(path):
 
 
 def _read(frame) -> np.ndarray:
-    """A frame from an array or from the name of a picture file."""
+    """A frame from an array or from the name of a picture file. Raises InputError for a file that is none."""
     if isinstance(frame, str | os.PathLike):
-        with Image.open(frame) as picture:
-            return np.asarray(picture.convert("RGB"))
+        try:
+            with Image.open(frame) as picture:
+                return np.asarray(picture.convert("RGB"))
+        except (OSError, ValueError, SyntaxError) as error:  # as Pillow says that a file is cut short or ill
+            raise InputError(f"frame {frame} cannot be read ({error}); remove it, the film goes without it") from error
     return np.asarray(frame)
 
 

@@ -14,10 +14,10 @@ class Conductivity(Term):
 
     Artificial heat conduction, so that the pressure has no blip at a contact (lecture p. 21; Price 2008; Price et al.
     2018). Conserves sum m u exactly. s_i = 2 m_j/(m_i + m_j), s_j = 2 m_i/(m_i + m_j): 1 for equal masses, else the
-    harmonic mean of both sides (Cleary & Monaghan 1999), as in Viscosity. v_sig="velocity" takes v_u = |v_ij.e| instead (Wadsley, Veeravalli & Couchman
-    2008), which leaves layers at rest alone: with gravity, or a pressure that the field holds. Advice: alpha = 1 for
-    hydrodynamic shocks, 0.1 or v_sig="velocity" where gas pressure varies across a magnetically supported layer, which
-    it would smear.
+    harmonic mean of both sides (Cleary & Monaghan 1999), as in Viscosity. v_sig="velocity" takes v_u = |v_ij.e|
+    instead (Wadsley, Veeravalli & Couchman 2008), which leaves layers at rest alone: with gravity, or a pressure that
+    the field holds. Advice: alpha = 1 for hydrodynamic shocks, 0.1 or v_sig="velocity" where gas pressure varies across
+    a magnetically supported layer, which it would smear.
     """
 
     alpha: float = 1.0

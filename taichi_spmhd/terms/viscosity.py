@@ -15,9 +15,10 @@ class Viscosity(Directional, Term):
     Monaghan 1997; Price et al. 2018). Each particle takes its own heat, du_i/dt = sum_j s_i q_i Gi mu >= 0; momentum,
     angular momentum and energy are conserved exactly. s_i = 2 m_j/(m_i + m_j), s_j = 2 m_i/(m_i + m_j): 1 for equal
     masses; between unequal ones the harmonic mean of both sides (Cleary & Monaghan 1999), without which a heavy
-    neighbour brakes a light particle m_j/m_i times too fast for any time step. Advice: alpha = 1 and beta = 2 for shocks; less, or a switch in
-    its place (Balsara, MorrisMonaghan, CullenDehnen), where the flow is smooth. directional=True puts the fast speed
-    along the pair, c_f(e), in place of vw: less viscosity along a strong field, for two more roots a pair.
+    neighbour brakes a light particle m_j/m_i times too fast for any time step. Advice: alpha = 1 and beta = 2 for
+    shocks; less, or a switch in its place (Balsara, MorrisMonaghan, CullenDehnen), where the flow is smooth.
+    directional=True puts the fast speed along the pair, c_f(e), in place of vw: less viscosity along a strong field,
+    for two more roots a pair.
     """
 
     alpha: float = 1.0

@@ -11,7 +11,7 @@ RATIOS = {0.2: 1e2, 2e-2: 1e3, 2e-4: 1e5}  # of the pressures, by beta outside; 
 
 
 def blast(beta: float, ratio: float, nx: int, dim: int = 2) -> Problem:
-    """P = beta/2 in a field B = 1 along the diagonal, `ratio` times that within 0.125, until sound from inside could have gone 0.4."""
+    """P = beta/2 in a field B = 1 along the diagonal, `ratio` times that within 0.125, until sound has gone 0.4."""
     box = ((-0.5, 0.5),) * dim
     field = np.array([1.0, 1.0, 0.0 if dim == 2 else 1.0]) / np.sqrt(dim)
     inside, outside = 0.5 * beta * ratio, 0.5 * beta

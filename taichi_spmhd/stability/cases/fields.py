@@ -34,13 +34,13 @@ def wave(beta: float, nx: int) -> Problem:
 
 
 def wave_3d(beta: float, nx: int) -> Problem:
-    """The same wave in three dimensions, one period."""
+    """The same wave in three dimensions, two periods."""
     scene = load_scene("alfven_3d", nx=nx)["xi = 1/2"]
 
     def start(x):
         return {**scene.start(x), "P": 0.5 * beta}
 
-    return Problem(scene.box.size, jitter(scene.positions, scene.box, 1e-3), start, 1.0)
+    return Problem(scene.box.size, jitter(scene.positions, scene.box, 1e-3), start, 2.0)
 
 
 def sheets(beta: float, bend: float, nx: int) -> Problem:
