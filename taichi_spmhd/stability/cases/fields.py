@@ -64,14 +64,14 @@ def loop(crossings: float, nx: int) -> Problem:
 
 CASES = (
     Case("uniform_field", "a uniform field at rest on a noisy lattice, 30 dx/v_A", "beta", uniform,
-         (10.0, 1.0, 0.1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6), (1e-8, 1e-10, 1e-12), (32, 20)),
+         (10.0, 1.0, 0.1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6), (1e-9, 1e-12, 1e-16), (32, 20)),
     Case("alfven_wave", "a circularly polarised Alfven wave, one period", "beta", wave,
-         (0.2, 0.02, 2e-3, 1e-3), (1e-4, 1e-5, 1e-6), (32, 16)),
+         (0.2, 0.02, 2e-3, 1e-3), (1e-4, 1e-6, 1e-9), (32, 16)),
     Case("alfven_wave_3d", "the same wave in three dimensions", "beta", wave_3d,
-         (0.2, 0.02, 2e-3), (2e-4, 2e-5), (24, 16)),
+         (0.2, 0.02, 2e-3), (2e-4, 2e-6), (24, 16)),
     Case("current_sheet", "two current sheets, v_x = 0.1 cos pi y, until t = 10", "beta",
-         lambda beta, nx: sheets(beta, 0.1, nx), (0.1, 1e-3), (1e-4, 1e-5), (48, 24)),
+         lambda beta, nx: sheets(beta, 0.1, nx), (0.1, 1e-3), (1e-4, 1e-6), (48, 24)),
     Case("bent_sheet", "two current sheets at beta = 0.1, v_x = A cos pi y, until t = 10", "A",
-         lambda bend, nx: sheets(0.1, bend, nx), (0.1, 1.0), (3.0, 10.0), (48, 24), Limits(energy=0.02)),
+         lambda bend, nx: sheets(0.1, bend, nx), (0.1, 1.0), (3.0, 10.0, 30.0), (48, 24), Limits(energy=0.02)),
     Case("field_loop", "a weak loop of field, carried along", "crossings", loop, (20.0,), (50.0,), (48, 24)),
 )  # fmt: skip

@@ -37,7 +37,7 @@ def doubled(gap: float, nx: int) -> Problem:
 CLUMPED = Limits(energy=0.02, close=0.5)
 
 CASES = (
-    Case("strewn", "positions drawn at random in a uniform field", "beta", strewn, (10.0, 1.0, 0.1), (1e-2, 1e-3, 1e-4),
+    Case("strewn", "positions drawn at random in a uniform field", "beta", strewn, (10.0, 1.0, 0.1), (1e-2, 1e-4),
          (32, 20), CLUMPED),
     Case("strewn_3d", "the same in three dimensions", "beta", strewn_3d, (10.0, 1.0, 0.1), (1e-2, 1e-3), (14, 10),
          CLUMPED),
