@@ -17,6 +17,7 @@ try:
     from .density import SumMass, SumVolume
     from .energy import Thermal, Total
     from .eos import Adiabatic, Isothermal, LocallyIsothermal
+    from .glass import glass
     from .guard import Guard
     from .kernels import CubicSpline, Gaussian, QuinticSpline, WendlandC2, WendlandC4, WendlandC6
     from .lattice import close_packed, cubic, hexagonal, jitter, line, spacing, square
@@ -82,6 +83,7 @@ __all__ = [
     "cubic",
     "displaced",
     "exact",
+    "glass",
     "hexagonal",
     "init",
     "jitter",

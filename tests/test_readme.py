@@ -57,7 +57,8 @@ def test_every_command_it_names_exists(capsys, command):
 
 def test_every_command_there_is_and_every_option_it_names_are_told(capsys):
     there = re.findall(r"^    ([a-z]+) {2}", helped(capsys), re.MULTILINE)
-    assert there == [name for name in ("list", "show", "run", "live", "bench", "cost") if name in COMMANDS]
+    told = ("list", "show", "run", "live", "bench", "cost", "dispersion", "stability")
+    assert there == [name for name in told if name in COMMANDS]
     known = "".join(helped(capsys, command) for command in there)
     unknown = {option for option in re.findall(r"(?<![\w-])--[a-z][a-z-]+", README) if option not in known}
     assert unknown <= {"--help"}
