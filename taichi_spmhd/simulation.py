@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 from . import runtime, state
+from .advance import Advance
 from .errors import InputError, RunError
 from .failure import collapsed, stepped
 from .lanes import best as lanes
@@ -16,7 +17,6 @@ from .rhs import RHS
 from .scene import Scene
 from .sliding import Sliding
 from .smoothing import Density
-from .stepper import Advance
 from .types import integer
 from .watch import Watch
 

@@ -9,11 +9,11 @@ from hypothesis import strategies as st
 from tiny import DEVICE, WAVE, Killed, kill_at, one_line, refused, run, write
 
 from taichi_spmhd import InputError
-from taichi_spmhd.cost.machine import machine
 from taichi_spmhd.cost.places import tasks
 from taichi_spmhd.cost.plan import planned
 from taichi_spmhd.cost.record import Record
 from taichi_spmhd.cost.report import finish
+from taichi_spmhd.machine import machine
 from taichi_spmhd.outputs.film import Film
 from taichi_spmhd.outputs.record import MAY, MUST
 

@@ -18,6 +18,14 @@ class Parser(argparse.ArgumentParser):
         raise InputError(f"{message} (see {self.prog} --help)")
 
 
+class Columns(argparse.HelpFormatter):
+    """Names and what they do in one line each: argparse forgets that commands are indented when it measures them."""
+
+    def __init__(self, prog: str):
+        super().__init__(prog)
+        self._action_max_length = 6 + max(map(len, COMMANDS))
+
+
 def common() -> argparse.ArgumentParser:
     """Options that every command which computes has."""
     options = argparse.ArgumentParser(add_help=False)
@@ -40,7 +48,8 @@ class Version(argparse.Action):
 
 def parser() -> Parser:
     """The commands and their options."""
-    top = Parser(prog="spmhd", description="Smoothed particle magnetohydrodynamics: run the scenes and look.")
+    what = "Smoothed particle magnetohydrodynamics: run the scenes and look."
+    top = Parser(prog="spmhd", description=what, formatter_class=Columns)
     top.add_argument("--version", action=Version, nargs=0, help="show the version and exit")
     commands = top.add_subparsers(metavar="COMMAND", required=True, parser_class=Parser)
     options = common()

@@ -5,13 +5,13 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from ..errors import InputError
+from ..machine import machine
 from ..outputs.progress import progress
 from ..outputs.signals import Interrupted, Stop
 from ..outputs.words import duration, say
 from ..runtime import PRECISIONS
 from . import grid, places, report
 from .forecast import Forecast
-from .machine import machine
 from .plan import Plan, checked, measurable, planned, single
 from .record import Record
 

@@ -1,12 +1,13 @@
 """What a study says: cost.md, cost.png, the tables and the answers on the terminal."""
 
+from ..machine import words
 from ..outputs.comparison import row as line
 from ..outputs.files import write_text, writing
 from ..outputs.words import say, table
 from ..replacing import replacing
 from .answers import answers
+from .busy import busy
 from .calibration import STANDARD
-from .machine import busy, words
 from .orders import convergence, fit, methods, pareto
 from .orders import words as value_words
 

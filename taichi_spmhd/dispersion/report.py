@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from ..cost.machine import machine, words
+from ..machine import machine, words
 from ..outputs.files import as_json, write_text, writing
 from ..outputs.words import say, table
 from ..replacing import replacing

@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from ..cost.machine import machine
 from ..errors import InputError
+from ..machine import machine
 from ..outputs.files import as_json, plain, read_json, write_text, writing
 
 KEY = ("case", "value", "preset", "nx", "precision")

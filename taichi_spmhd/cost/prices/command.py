@@ -6,13 +6,13 @@ import tempfile
 from pathlib import Path
 
 from ...errors import InputError
+from ...machine import machine, words
 from ...outputs.files import as_json, read_json, write_text, writing
 from ...outputs.progress import progress
 from ...outputs.signals import Interrupted, Stop
 from ...outputs.words import say, table
 from ...replacing import replacing
 from ..forecast import Forecast
-from ..machine import machine, words
 from ..places import Task, one_by_one
 from ..plan import Plan
 from ..setting import Setting
