@@ -1,5 +1,7 @@
 """A scene's small waves: its uniform state on a lattice, and what becomes of disturbances of it."""
 
+from collections.abc import Callable
+
 import numpy as np
 
 from ..errors import InputError
@@ -30,14 +32,15 @@ class Analyst:
     def __init__(self):
         self.sim: Simulation | None = None
 
-    def analyse(self, scene: Scene, lattice: str | None = None, at: tuple | None = None, lines: bool = True):
-        """The Dispersion of a scene; lines: phase speeds too."""
+    def analyse(self, scene: Scene, lattice: str | None = None, at: tuple | None = None, lines: bool = True,
+                tell: Callable[[float], None] = lambda share: None) -> Dispersion:  # fmt: skip
+        """The Dispersion of a scene; lines: phase speeds too; tell(share) hears of progress."""
         checked()
         found = background(scene, at)
         arranged = arrange(scene, found, lattice)
         sim = self.set_up(uniform(scene, found, arranged))
         gas = gas_of(sim, found)
-        waves = PlaneWaves(Response(sim, arranged, gas.fastest))
+        waves = PlaneWaves(Response(sim, arranged, gas.fastest), tell)
         return worked_out(scene, found, gas, arranged, waves, lines)
 
     def set_up(self, scene: Scene) -> Simulation:

@@ -1,6 +1,6 @@
 """The command: analyse a scene's variants, or scan over parameters and choices; write the files, tell the rates."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from ..errors import InputError
@@ -57,12 +57,16 @@ def analysed(scan: Scan, args, stop: Stop) -> Iterator[tuple]:
             for n, point in enumerate(points):
                 for label, scene in scan.variants(point).items():
                     stop.check()
-                    found = analyst.analyse(scene, args.lattice, at, lines=not scan.varied)
+                    tell = shares(bar, n, len(points), args.lattice == "glass")
+                    found = analyst.analyse(scene, args.lattice, at, lines=not scan.varied, tell=tell)
                     yield label, rows.row(label, parameters_at(scan, point), found), found
-                if len(points) > 1:
-                    bar.show((n + 1) / len(points), 0.0)
         finally:
             bar.end()
+
+
+def shares(bar, n: int, of: int, slow: bool) -> Callable[[float], None]:
+    """What tells the bar of the progress of the n-th of so many; a single one that takes seconds needs none."""
+    return (lambda share: bar.show((n + share) / of, 0.0)) if of > 1 or slow else (lambda share: None)
 
 
 def parameters_at(scan: Scan, point: dict) -> dict:

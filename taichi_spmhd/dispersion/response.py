@@ -14,7 +14,7 @@ from ..simulation import Simulation
 from ..types import components
 
 SMALL = 1e-5  # the push in units of each member, of u itself for the energies: rounding leaves 1e-10 of a rate
-FAINT = 1e-7  # of the largest answer: what comes from as far as this was only rounding
+FAINT = 1e-10  # of the largest answer: beyond all supports nothing changes, not a bit, but for numbers that are global
 
 
 class Response:

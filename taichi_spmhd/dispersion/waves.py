@@ -6,17 +6,21 @@ R is the response, a and b run over the particles of the cell, q over positions 
 Re lambda is the growth, |Im lambda| the frequency.
 """
 
+from collections.abc import Callable
+
 import numpy as np
 
 from .response import Response
 
 BLOCK = 2**22  # complex numbers held at once
+LARGE, FEW = 100, 8  # matrices of more rows are worked out so many at a time, so that a bar can move
 
 
 class PlaneWaves:
-    """M(k) for any wave vectors k (K, d), in units of dx and of the response's pace."""
+    """M(k) for any wave vectors k (K, d), in units of dx and of the response's pace. tell(share) hears of progress."""
 
-    def __init__(self, response: Response):
+    def __init__(self, response: Response, tell: Callable[[float], None] = lambda share: None):
+        self.tell = tell
         patch = response.patch
         self.names, self.dim, self.size = response.names, patch.positions.shape[1], len(patch.cell)
         self.places = patch.positions[patch.cell] / patch.dx
@@ -56,7 +60,11 @@ class PlaneWaves:
 
     def growth(self, k: np.ndarray) -> np.ndarray:
         """The largest growth rate of each wave vector, (K,)."""
-        return np.concatenate([np.linalg.eigvals(self.matrices(part)).real.max(axis=1) for part in self.parts(k)])
+        found, parts = [], self.parts(k)
+        for n, part in enumerate(parts):
+            found.append(np.linalg.eigvals(self.matrices(part)).real.max(axis=1))
+            self.tell((n + 1) / len(parts))
+        return np.concatenate(found)
 
     def modes(self, k: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Eigenvalues (K, n) and eigenvectors (K, n, n), one a column."""
@@ -67,6 +75,7 @@ class PlaneWaves:
         """Wave vectors in blocks that fit the memory."""
         k = np.atleast_2d(k)
         each = max(1, BLOCK // max((self.rows * self.size) ** 2, sum(len(o) for o, _, _ in self.kernels)))
+        each = min(each, FEW) if self.rows * self.size > LARGE else each
         return [k[n : n + each] for n in range(0, len(k), each)]
 
     def wave_part(self, vector: np.ndarray, more: np.ndarray | None = None) -> np.ndarray:
