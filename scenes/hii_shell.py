@@ -16,6 +16,7 @@ import numpy as np
 from taichi_spmhd import (
     Boundary,
     Frozen,
+    Heun,
     InputError,
     LocallyIsothermal,
     Periodic,
@@ -72,4 +73,7 @@ def scenes(nx: int = 48, finer: int = 0, c_hot: float = 5.0, dim: Literal[1, 2] 
         measure="P",
         picture=Picture("P", limits=(0.008, 2.0), log=True),
     )
-    return {"density by volume": by_volume, "density by mass": by_volume.but(density=SumMass())}
+    return {
+        "density by volume": by_volume,
+        "density by mass": by_volume.but(density=SumMass(), stepper=Heun()),
+    }  # less is lost

@@ -25,7 +25,12 @@ KERNELS = {
 STEPPERS = {"leapfrog": LeapfrogKDK, "heun": Heun, "ssprk3": SSPRK3}
 CLEANINGS = {"none": None, "constant": ConstantCleaning, "tricco_2012": TriccoPrice2012, "tricco_2016": Cleaning}
 NAMED = {"kernel": KERNELS, "stepper": STEPPERS, "cleaning": CLEANINGS}
-NUMBERS = {"cour": "stepper", "force": "stepper", "cool": "stepper", "h_fact": "kernel"}  # the choice whose number it is
+NUMBERS = {
+    "cour": "stepper",
+    "force": "stepper",
+    "cool": "stepper",
+    "h_fact": "kernel",
+}  # the choice whose number it is
 
 
 def known(scene: Scene) -> list[str]:

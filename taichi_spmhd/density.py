@@ -44,6 +44,16 @@ class Summation(Choice):
         return 0.5 * j.m * (at_i + at_j)
 
     @ti.func
+    def Di(self, i, j, w, kernel: ti.template()):
+        """Gi for what two exchange, motion or heat."""
+        return w.Gi
+
+    @ti.func
+    def Dj(self, i, j, w, kernel: ti.template()):
+        """Gj for what two exchange."""
+        return w.Gj
+
+    @ti.func
     def near(self, i, j, w, kernel: ti.template()):
         """W(r, h)/W(dx, h) at the mean h, dx = h/h_fact the mean spacing: above 1 for pairs closer than that."""
         return kernel.f(2.0 * w.r / (i.h + j.h)) / kernel.f(ti.cast(1.0 / kernel.h_fact, float))
@@ -95,3 +105,16 @@ class SumVolume(Summation):
     @ti.func
     def masses(self, i, j):
         return i.m * self.share(j), j.m * (j.m / i.m)
+
+    @ti.func
+    def Di(self, i, j, w, kernel: ti.template()):
+        """2 m_j/(m_i + m_j) Gi:   with Dj the harmonic mean of both sides (Cleary & Monaghan 1999)
+
+        The sum of Gi and Gj would let a heavy neighbour brake, or cool, a light particle m_j/m_i times too fast.
+        """
+        return 2.0 * j.m / (i.m + j.m) * w.Gi
+
+    @ti.func
+    def Dj(self, i, j, w, kernel: ti.template()):
+        """2 m_i/(m_i + m_j) Gj"""
+        return 2.0 * i.m / (i.m + j.m) * w.Gj

@@ -57,8 +57,7 @@ class Formulas(Reference):
         alpha = alpha + 0 * rho
         qi = -0.5 * share * rho[:, None] * (alpha[:, None] * ci - beta * mu) * mu
         qj = -0.5 * share * rho[None] * (alpha[None] * cj - beta * mu) * mu
-        Gi, Gj = self.evened()
-        return {"v": -self.sum(qi * Gi + qj * Gj), "u": (qi * Gi * mu).sum(1)}
+        return {"v": -self.sum(qi * self.Gi + qj * self.Gj), "u": (qi * self.Gi * mu).sum(1)}
 
     def form_b(self, alpha, beta, directional=False):
         slope = [cubic(self.r / h)[1] / h**3 for h in (self.h[:, None], self.h[None])]
@@ -96,8 +95,7 @@ class Formulas(Reference):
 
     def conduction(self, alpha):
         u, rho = self.c["u"], self.rho
-        Gi, Gj = self.evened()
-        weight = 0.5 * alpha * abs(self.mu) * (rho[:, None] * Gi + rho * Gj)
+        weight = 0.5 * alpha * abs(self.mu) * (rho[:, None] * self.Gi + rho * self.Gj)
         return {"u": (weight * (u[:, None] - u)).sum(1)}
 
     def step(self, rates, closing=None, exchange=None):

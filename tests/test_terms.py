@@ -60,6 +60,7 @@ class Reference:
         own = 1 / (self.Omega * self.rho**2 * self.h**3)
         self.Gi = self.m * own[:, None] * cubic(self.r / self.h[:, None])[1]
         self.Gj = self.m * own[None] * cubic(self.r / self.h[None])[1]
+        self.Di, self.Dj = self.Gi, self.Gj
         self.vij = self.c["v"][:, None] - self.c["v"][None]
         self.mu = dot(self.vij, self.e)
         self.drho = self.rho**2 * (self.Gi * self.mu).sum(1)
@@ -93,23 +94,16 @@ class Reference:
         force = -xi * self.S()[:, None] * self.c["B"]
         return {"v": force, "leak_v": force, "leak_E": dot(force, self.c["v"])}
 
-    def evened(self):
-        """s_i Gi, s_j Gj: the harmonic mean of both sides between unequal masses."""
-        m, both = self.c["m"], self.c["m"][:, None] + self.c["m"]
-        return 2 * m / both * self.Gi, 2 * m[:, None] / both * self.Gj
-
     def viscosity(self, alpha, beta):
         mu, vw, rho = np.minimum(self.mu, 0), self.c["vw"], self.rho
         qi = -0.5 * rho[:, None] * ((alpha * vw)[:, None] - beta * mu) * mu
         qj = -0.5 * rho * (alpha * vw - beta * mu) * mu
-        Gi, Gj = self.evened()
-        return {"v": -self.sum(qi * Gi + qj * Gj), "u": (qi * Gi * mu).sum(1)}
+        return {"v": -self.sum(qi * self.Di + qj * self.Dj), "u": (qi * self.Di * mu).sum(1)}
 
     def conductivity(self, alpha):
         P, u, rho = self.c["P"], self.c["u"], self.rho
         v_u = np.sqrt(2 * abs(P[:, None] - P) / (rho[:, None] + rho))
-        Gi, Gj = self.evened()
-        return {"u": 0.5 * alpha * (v_u * (u[:, None] - u) * (rho[:, None] * Gi + rho * Gj)).sum(1)}
+        return {"u": 0.5 * alpha * (v_u * (u[:, None] - u) * (rho[:, None] * self.Di + rho * self.Dj)).sum(1)}
 
     def resistivity(self, alpha):
         v_B = np.linalg.norm(self.vij - self.mu[..., None] * self.e, axis=-1)  # the transverse velocity

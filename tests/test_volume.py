@@ -9,7 +9,7 @@ import pytest
 from conftest import BOX, chaos, disordered_scene
 from test_terms import CASES, EQUAL, MHD, Reference, cubic, dot
 
-from taichi_spmhd import Simulation, SumMass, SumVolume, Thermal, Total
+from taichi_spmhd import Scene, Simulation, SumMass, SumVolume, Thermal, Total
 from taichi_spmhd.lattice import cubic as cubes
 from taichi_spmhd.lattice import jitter, line, square
 from taichi_spmhd.terms import (
@@ -69,6 +69,8 @@ class ByVolume(Reference):
         share = 1 / (self.n**2 * self.Omega * self.h**3)
         self.Gi = share[:, None] * cubic(self.r / self.h[:, None])[1] / self.m[:, None]
         self.Gj = share[None] * cubic(self.r / self.h[None])[1] / self.m[:, None]
+        both = self.m[:, None] + self.m
+        self.Di, self.Dj = 2 * self.m / both * self.Gi, 2 * self.m[:, None] / both * self.Gj
         self.drho = self.m * self.n**2 * (self.m[:, None] * self.Gi * self.mu).sum(1)
 
 
@@ -198,3 +200,27 @@ def test_the_density_changes_as_the_summation_does(simulate, dim):
     difference, drho = (sides[0] - sides[1]) / (2 * eps), -c["rho"] * c["div_v"]
     assert abs(drho - difference).max() < 1e-6 * abs(difference).max()
     assert abs(drho * c["Omega"] - difference).max() > 0.02 * abs(difference).max()
+
+
+def beside(heavier: float) -> dict:
+    """What brakes and cools light particles on a line that move between ones so many times heavier, colder, at rest."""
+
+    def start(x):
+        heavy = np.arange(len(x)) % 2 == 1
+        v = np.where(heavy, 0.0, np.where(np.arange(len(x)) % 4 == 0, 1.0, -1.0))
+        mass = np.where(heavy, heavier, 1.0) / len(x)
+        u = np.where(heavy, 0.5, 1.0)
+        return {"rho": mass * len(x), "mass": mass, "u": u, "v": np.stack([v, 0 * v, 0 * v], axis=1)}
+
+    given = {"box": (1.0,), "positions": line((1.0,), 60), "start": start, "density": BY_VOLUME}
+    with Simulation(Scene(terms=(Pressure(), Viscosity(1.0, 0.0), Conductivity()), **given)) as sim:
+        rates = sim.rates()
+    with Simulation(Scene(terms=(Pressure(),), **given)) as sim:  # pressure alone: the rest is friction and conduction
+        return {name: np.abs(rates[name] - sim.rates()[name])[::2].max() for name in ("v", "u")}
+
+
+def test_a_heavy_neighbour_neither_brakes_nor_cools_a_light_particle_much_faster():
+    """By volume at most twice as fast as an equal one: the harmonic mean; the plain one is 1e4 times as fast."""
+    equal_ones, heavy_ones = beside(1.0), beside(1e4)
+    assert heavy_ones["v"] < 2.5 * equal_ones["v"]
+    assert heavy_ones["u"] < 2.5 * equal_ones["u"]

@@ -10,19 +10,19 @@ SPEEDS = ("pressure", "velocity")
 
 @dataclass(frozen=True)
 class Conductivity(Term):
-    """du_i/dt = alpha/2 sum_j v_u (u_i - u_j) ( s_i rho_i Gi + s_j rho_j Gj ),   v_u = sqrt( |P_i - P_j| / rho_mean )
+    """du_i/dt = alpha/2 sum_j v_u (u_i - u_j) ( rho_i Di + rho_j Dj ),   v_u = sqrt( |P_i - P_j| / rho_mean )
 
     Artificial heat conduction, so that the pressure has no blip at a contact (lecture p. 21; Price 2008; Price et al.
-    2018). Conserves sum m u exactly. s_i = 2 m_j/(m_i + m_j), s_j = 2 m_i/(m_i + m_j): 1 for equal masses, else the
-    harmonic mean of both sides (Cleary & Monaghan 1999), as in Viscosity. v_sig="velocity" takes v_u = |v_ij.e|
-    instead (Wadsley, Veeravalli & Couchman 2008), which leaves layers at rest alone: with gravity, or a pressure that
-    the field holds. Advice: alpha = 1 for hydrodynamic shocks, 0.1 or v_sig="velocity" where gas pressure varies across
-    a magnetically supported layer, which it would smear.
+    2018). Conserves sum m u exactly. Di, Dj are Gi, Gj, but for unequal masses by volume (SumVolume).
+    v_sig="velocity" takes v_u = |v_ij.e| instead (Wadsley, Veeravalli & Couchman 2008), which leaves layers at rest
+    alone: with gravity, or a pressure that the field holds. Advice: alpha = 1 for hydrodynamic shocks, 0.1 or
+    v_sig="velocity" where gas pressure varies across a magnetically supported layer, which it would smear.
     """
 
     alpha: float = 1.0
     v_sig: str = "pressure"
     reads, evolves = {"P": real, "rho": real, "u": real}, {}
+    weighs = ("Di", "Dj")
     live = {"alpha": (0.0, 3.0)}
 
     def __post_init__(self):
@@ -41,8 +41,8 @@ class Conductivity(Term):
 
     @ti.func
     def pair(self, i, j, w, now):
-        exchange = self.v_u(i, j, w) * (j.m * i.rho * w.Gi + i.m * j.rho * w.Gj) / (i.m + j.m)
-        return ti.Struct(u=self.alpha * (i.u - j.u) * exchange)
+        exchange = self.v_u(i, j, w) * (i.rho * w.Di + j.rho * w.Dj)
+        return ti.Struct(u=0.5 * self.alpha * (i.u - j.u) * exchange)
 
 
 @dataclass(frozen=True)
