@@ -1,5 +1,7 @@
 """What can go wrong in a run, and the sentence what to try: by cause, and by the term with the largest rate."""
 
+from numbers import Real
+
 from .guard import ours
 
 NOT_FINITE, NEGATIVE, COLLAPSED = "not finite", "u <= 0", "collapsed step"
@@ -44,8 +46,10 @@ def of_term(scene, term: str | None, beta: float | None) -> str:
 def of_field(scene, beta: float | None) -> str:
     """The remedies of the field that are not taken yet."""
     terms = {type(term).__name__: term for term in scene.terms}
-    weak = getattr(terms.get("DivBSource"), "xi", 0.0) != 1.0
-    lacking = ["DivBSource(xi=1)"] if beta is not None and beta < 1 and weak else []
+    xi = getattr(terms.get("DivBSource"), "xi", 0.0)
+    lacking = []
+    if beta is not None and beta < 1 and isinstance(xi, Real) and xi < 0.5:  # a rule knows what it does
+        lacking.append("DivBSource(xi=0.5)")
     if not any("Cleaning" in name or name.startswith("TriccoPrice2012") for name in terms):
         lacking.append("Cleaning()")
     where = f" (beta = {beta:.2g} there)" if beta is not None else ""

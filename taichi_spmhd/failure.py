@@ -8,7 +8,8 @@ from .shares import FORCE, HEAT, SIGNAL, loudest, slowest
 from .suspects import coldest, spoilt, suspect
 
 
-def explained(sim, what: str, cause: str, found: tuple[int, str] | None = None, term: str | None = None) -> RunError:
+def explained(sim, what: str, cause: str, found: tuple[int, str] | None = None, term: str | None = None,
+              advice: str | None = None) -> RunError:  # fmt: skip
     """The error that says so. found: (place in memory, member), term: the one to blame, where they are known."""
     memory, member = found or suspect(sim, cause)
     table, ids = sim.particles.table()
@@ -22,7 +23,7 @@ def explained(sim, what: str, cause: str, found: tuple[int, str] | None = None, 
     return RunError(
         f"{what} at t = {sim.time:.6g}, step {sim.steps + 1}: {where}",
         cause,
-        cure(cause, sim.scene, term, beta(columns, memory)),
+        f"try to {advice}" if advice else cure(cause, sim.scene, term, beta(columns, memory)),
         particle=int(ids[memory]),
         position=position,
         member=member,
@@ -72,7 +73,7 @@ def stepped(sim, dt: float) -> float:
     except RunError as error:  # from inside an evaluation, which knows neither the particle nor the time
         if error.cause not in CAUSES:
             raise
-        raise explained(sim, error.what, error.cause) from error
+        raise explained(sim, error.what, error.cause, advice=error.cure) from error
     if sim.ill:
         raise ill(sim)
     return longest

@@ -137,6 +137,6 @@ def inherit(new, columns: dict) -> None:
 def restart(sim) -> None:
     """Back to the scene's start with the present terms and numbers: the bits of a new simulation."""
     sim.time, sim.steps, sim.floors, sim.ill, sim.dt, sim.longest = 0.0, 0, 0, 0, 0.0, 0.0
-    sim.begun, sim.ledger, sim.watch.before = False, None, 0.0
+    sim.begun, sim.ledger, sim.watch.before, sim.watch.mean = False, None, 0.0, 0.0
     sim.neighbours.forget()
     state.fill(sim, state.opening(sim.scene))

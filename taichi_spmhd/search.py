@@ -69,8 +69,9 @@ class Search:
         share = (INNER / pad) ** 2
         most = self.fill_rows(share)
         if most > self.width and 4.0 * self.p.n * most > MOST_BYTES:
-            what = f"neighbours: a particle has {most} of them, a list of {4e-9 * self.p.n * most:.0f} GB"
-            raise RunError(what, STRAYED, "one has strayed far from all others, or smoothing lengths differ too much")
+            size = f"a list of {4e-9 * self.p.n * most:.0f} GB"
+            what = f"neighbours: a particle has {most} of them, {size}: one has strayed far, or h differs too much"
+            raise RunError(what, STRAYED)
         if most > self.width:
             self.width = LANES * int(np.ceil(1.25 * most / LANES))
             self.near = ti.ndarray(ti.i32, (self.p.n, self.width))

@@ -70,7 +70,8 @@ def add_up(rhs: ti.template(), pairs: ti.template(), term: ti.template(), n: ti.
 
 def stated(rhs) -> tuple:
     """(name, whether it is a vector) of every rate a term may state: heat and B/rho, too, where others are evolved."""
-    names = (*rhs.p.names, *(name for name in ("u", "b") if name in rhs.totals and name not in rhs.p.names))
+    own = (name for name in rhs.p.names if not name.startswith("leak"))  # leaks repeat what is in v and u
+    names = (*own, *(name for name in ("u", "b") if name in rhs.totals and name not in rhs.p.names))
     return tuple((name, rhs.totals[name] is vec3) for name in names)
 
 

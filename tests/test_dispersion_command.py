@@ -9,9 +9,8 @@ from PIL import Image
 from tiny import spmhd
 
 from taichi_spmhd import InputError, WendlandC4, load_scene
-from taichi_spmhd.dispersion import scan
+from taichi_spmhd.dispersion import scan, scan_picture
 from taichi_spmhd.glass import glass
-from taichi_spmhd.library import find
 from taichi_spmhd.parameters import parameters
 from taichi_spmhd.simulation import Simulation
 
@@ -65,7 +64,7 @@ def test_what_cannot_be_meant_is_one_line(capsys, tmp_path, words, says):
 def test_a_scene_gives_table_picture_and_record(capsys, tmp_path):
     assert spmhd("dispersion", "uniform_field", "--set", "beta=0.2", "lattice=square", "--out", tmp_path) == 0
     said = capsys.readouterr().out
-    assert "1.1347" in said and "lattice: square" in said
+    assert "1.1347 v_A/dx" in said and "square" in said
     made = json.loads((tmp_path / "dispersion.json").read_text())
     row = made["rows"][0]
     assert (row["xi"], row["beta"], row["growth"]) == (0.0, pytest.approx(0.2), pytest.approx(1.1347, abs=5e-4))
@@ -107,7 +106,32 @@ def test_a_glass_is_even_and_the_same_every_time():
     assert x.min() >= 0 and x.max() < 1
 
 
-def test_the_scene_file_is_left_as_it_was():
-    before = find("uniform_field").read_bytes()
-    scan.Scan(find("uniform_field"), {}, ["xi=0,1"])
-    assert find("uniform_field").read_bytes() == before
+def test_what_was_asked_stands_beside_what_was_found(tmp_path):
+    """uniform_field has a parameter `angle`, of B; the mode has an angle of its own, to B."""
+    words = ["--scan", "angle=0,30", "--set", "lattice=square", "beta=0.2", "--out", tmp_path, "--quiet"]
+    assert spmhd("dispersion", "uniform_field", *words) == 0
+    rows = json.loads((tmp_path / "dispersion.json").read_text())["rows"]
+    assert [row["parameters"]["angle"] for row in rows] == [0, 30]
+    with open(tmp_path / "dispersion.csv") as file:
+        table = list(csv.DictReader(file))
+    assert [row["set angle"] for row in table] == ["0", "30"] and float(table[0]["angle"]) < 1
+
+
+def test_a_map_over_words_has_the_words(tmp_path):
+    words = ["--scan", "kernel=cubic,wendland_c4", "beta=0.1,0.5", "--out", tmp_path, "--quiet"]
+    assert spmhd("dispersion", "uniform_field", *words) == 0
+    assert scan_picture.edges(["cubic", "quintic"]).tolist() == [-0.5, 0.5, 1.5]
+    assert scan_picture.edges([1.0, 10.0, 100.0]) == pytest.approx(10 ** np.array([-0.5, 0.5, 1.5, 2.5]))
+    assert (tmp_path / "dispersion.png").stat().st_size > 10_000
+
+
+def test_a_scan_of_a_variant_that_is_nowhere_is_told(capsys, tmp_path):
+    words = ["--scan", "beta=0.1,0.5", "--variant", "xi = 7", "--out", tmp_path, "--quiet"]
+    assert spmhd("dispersion", "uniform_field", *words) == 2
+    assert "no state of this scan has it" in capsys.readouterr().err
+
+
+def test_a_scene_whose_field_cancels_is_told_where_to_look(capsys, tmp_path):
+    words = ["--set", "nx=16", "--variant", "with cleaning", "--out", tmp_path]
+    assert spmhd("dispersion", "orszag_tang", *words) == 0
+    assert "no field in the mean" in capsys.readouterr().out

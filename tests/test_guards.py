@@ -67,6 +67,24 @@ def test_the_switch_starts_without_viscosity(stepper):
         assert sim["alpha"].max() < 0.05
 
 
+def test_no_step_gives_away_more_than_half_of_the_heat():
+    """Two halves part at Mach 10: at the middle du/dt = - (gamma - 1) u div v, h div v of order 10 c."""
+
+    def parting(x):
+        return {"rho": 1.0, "P": 0.6, "v": np.outer(10 * np.sign(x[:, 0] - 0.5), [1.0, 0, 0])}
+
+    x, free = line((1.0,), 100), Boundary(x=Open())
+    scene = gas(box=(1.0,), positions=x, boundary=free, start=parting)
+    with Simulation(scene) as sim:
+        sim.begin()
+        loss = np.maximum(-sim.rates()["u"], 0) / sim["u"]
+        assert sim.longest == pytest.approx(0.5 / loss.max(), rel=1e-6)  # and not Courant's, which is longer
+        courant = 0.3 * (sim["h"] / sim["cs"]).min()
+        assert sim.longest < 0.8 * courant
+        sim.run(0.05)
+        assert sim.floors == 0
+
+
 @dataclass(frozen=True)
 class Drive(Term):
     """dv_i/dt = cos(20 t): every stage must be told its own time"""

@@ -44,7 +44,8 @@ def test_any_assignment_is_taken_or_refused_in_one_line(wave, text, name):
 
 OPTIONS = ["--set", "--variant", "--frames", "--movie", "--t-end", "--out", "--resume", "--arch", "--precision",
            "--threads", "--quiet", "--json", "--cases", "--sizes", "--vary", "--error", "--repeat", "--budget",
-           "--jobs", "--cluster", "--effects", "--scale", "--port", "--host", "--version", "--help",
+           "--jobs", "--cluster", "--effects", "--scale", "--port", "--host", "--scan", "--lattice", "--at", "--only",
+           "--preset", "--quick", "--full", "--version", "--help",
            "-", "--"]  # fmt: skip
 WORDS = st.one_of(st.sampled_from(NASTY), st.sampled_from(OPTIONS), st.sampled_from(COMMANDS), st.text(max_size=8))
 
@@ -67,6 +68,7 @@ NUMBERS = st.one_of(st.sampled_from(NASTY), st.integers().map(str), st.floats().
 ASKED = {
     "run": ("--frames", "--t-end", "--movie", "--variant", "--threads", "--arch", "--precision"),
     "show": ("--variant", "--threads", "--arch", "--precision"),
+    "dispersion": ("--scan", "--lattice", "--at", "--variant", "--threads", "--precision"),
     "cost": ("--vary", "--variant", "--error", "--t-end", "--repeat", "--budget", "--jobs", "--threads", "--precision"),
 }
 

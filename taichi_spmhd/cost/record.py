@@ -2,10 +2,9 @@
 
 import csv
 import io
-from pathlib import Path
 
 from ..errors import InputError
-from ..outputs.files import as_json, plain, read_json, write_text, writing
+from ..outputs.files import as_json, folder_at, plain, read_json, write_text, writing
 from ..outputs.folder import difference
 from .rows import rows
 from .sound import sound
@@ -18,12 +17,9 @@ class Record:
     """runs: results with their setting's key and round, in the order in which they came."""
 
     def __init__(self, root, plan, machine: dict):
-        self.root, self.plan = Path(root), plan
+        self.root, self.plan = folder_at(root), plan
         self.head = {**plan.record(), "repeat": plan.repeat, "machine": machine}
         self.runs: list[dict] = []
-        for part in (self.root, *self.root.parents):
-            if part.exists() and not part.is_dir():
-                raise InputError(f"--out {root}: {part} is a file; give a folder")
 
     def begin(self) -> None:
         """Refuse what is not ours before anything is measured; an earlier study stays until the first result."""

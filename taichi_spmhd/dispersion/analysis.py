@@ -40,8 +40,8 @@ class Analyst:
         arranged = arrange(scene, found, lattice)
         sim = self.set_up(uniform(scene, found, arranged))
         gas = gas_of(sim, found)
-        waves = PlaneWaves(Response(sim, arranged, gas.fastest), tell)
-        return worked_out(scene, found, gas, arranged, waves, lines)
+        waves = PlaneWaves(Response(sim, arranged, gas.fastest))
+        return worked_out(scene, found, gas, arranged, waves, lines, tell)
 
     def set_up(self, scene: Scene) -> Simulation:
         """A simulation of this uniform scene at its start; numbers slide (sliding.py), so few need compiling."""

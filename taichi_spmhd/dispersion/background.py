@@ -25,10 +25,6 @@ class Background:
     B: np.ndarray | None
     spot: np.ndarray
 
-    @property
-    def v_A(self) -> float:
-        return 0.0 if self.B is None else float(np.linalg.norm(self.B) / np.sqrt(self.rho))
-
     def start(self) -> dict:
         """What a scene's start gives."""
         given = {"rho": self.rho, "P": self.P, "cs": self.cs, "v": self.v, "B": self.B}

@@ -51,7 +51,7 @@ class Gas:
     def polarisations(self, k: np.ndarray) -> dict[str, np.ndarray]:
         """Unit vectors (3,) along which the gas moves in each wave; they stand at right angles to each other.
 
-        fast, slow: ( c^2 - cs^2 cos^2 ) v_k = cs^2 sin cos v_t in the plane of k and B, t across k; alfven across
+        fast, slow: ( c^2 - v_A^2 cos^2 ) v_t = - v_A^2 sin cos v_k in the plane of k and B, t across k; alfven across
         both.
         """
         along = np.zeros(3)

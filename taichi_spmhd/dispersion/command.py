@@ -5,7 +5,7 @@ from pathlib import Path
 
 from ..errors import InputError
 from ..library import find, parameters_of
-from ..outputs.files import writing
+from ..outputs.files import folder_at, writing
 from ..outputs.progress import progress
 from ..outputs.signals import Interrupted, Stop
 from ..scene_code import code_of
@@ -29,6 +29,8 @@ def main(args, given: dict) -> int:
                 whole[label if not scan.varied else ""] = found  # of a scan only the last is kept whole
         except Interrupted:
             pass
+    if not made and not stop.asked:
+        raise InputError(f"--variant {' '.join(args.variant)}: no state of this scan has it; see spmhd show")
     if made:
         report.write(out, path.stem, scan.varied, made, whole)
         report.tell(made, scan.varied, whole, out, args.quiet)
@@ -39,10 +41,7 @@ def main(args, given: dict) -> int:
 
 def place(out) -> Path:
     """The folder, made."""
-    out = Path(out)
-    for part in (out, *out.parents):
-        if part.exists() and not part.is_dir():
-            raise InputError(f"--out {out}: {part} is a file; give a folder")
+    out = folder_at(out)
     with writing(out):
         out.mkdir(parents=True, exist_ok=True)
     return out
@@ -50,23 +49,29 @@ def place(out) -> Path:
 
 def analysed(scan: Scan, args, stop: Stop) -> Iterator[tuple]:
     """(label, row, Dispersion) of every point and every variant."""
-    points, bar = scan.points(), progress(args.quiet)
-    at = None if args.at is None else tuple(args.at)
+    points, at = scan.points(), None if args.at is None else tuple(args.at)
+    bar = progress(args.quiet or (len(points) == 1 and args.lattice != "glass"))  # what takes seconds needs none
     with Analyst() as analyst:
         try:
             for n, point in enumerate(points):
-                for label, scene in scan.variants(point).items():
-                    stop.check()
-                    tell = shares(bar, n, len(points), args.lattice == "glass")
+                variants = scan.variants(point)
+                for m, (label, scene) in enumerate(variants.items()):
+                    tell = shares(bar, stop, n + m / len(variants), len(points), 1 / len(variants))
                     found = analyst.analyse(scene, args.lattice, at, lines=not scan.varied, tell=tell)
                     yield label, rows.row(label, parameters_at(scan, point), found), found
         finally:
             bar.end()
 
 
-def shares(bar, n: int, of: int, slow: bool) -> Callable[[float], None]:
-    """What tells the bar of the progress of the n-th of so many; a single one that takes seconds needs none."""
-    return (lambda share: bar.show((n + share) / of, 0.0)) if of > 1 or slow else (lambda share: None)
+def shares(bar, stop: Stop, before: float, of: int, part: float) -> Callable[[float], None]:
+    """Tells the bar how far this part of so many is; somebody who asked to stop is heard here, too."""
+    stop.check()
+
+    def tell(share: float) -> None:
+        stop.check()
+        bar.show((before + share * part) / of, 0.0)
+
+    return tell
 
 
 def parameters_at(scan: Scan, point: dict) -> dict:

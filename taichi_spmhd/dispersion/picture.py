@@ -2,31 +2,16 @@
 
 import numpy as np
 
-from ..outputs.words import one_line
+from ..outputs.figure import finished, sheet
 from .branches import NAMES
 from .result import STILL, Dispersion
+from .rows import unit
 
-PALE, MARK, ON_MAP = "#555555", "#c1440e", "#19a5fe"
+MARK, ON_MAP = "#c1440e", "#19a5fe"
 COLOURS = {"fast": "#c1440e", "alfven": "#2a7f62", "slow": "#3558a6"}
 WORDS = {"fast": "fast", "alfven": "Alfven", "slow": "slow"}
 STYLES = ("-", "--", ":")
 RING = {"marker": "o", "mfc": "none", "ms": 9, "mew": 1.4, "ls": "none"}
-
-
-def sheet(width: float, height: float):
-    """A white figure and its canvas."""
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(width, height), dpi=110, facecolor="white", layout="constrained")
-    return figure, FigureCanvasAgg(figure)
-
-
-def finished(figure, canvas, title: str, caption: str, path) -> None:
-    """Title, caption, file."""
-    figure.suptitle(title, fontsize=13, fontweight="bold")
-    figure.text(0.008, -0.02, one_line(caption), fontsize=7.5, color=PALE, va="top")
-    canvas.print_figure(path, format="png", bbox_inches="tight", pad_inches=0.12)
 
 
 def draw(name: str, analysed: dict[str, Dispersion], caption: str, path) -> None:
@@ -45,7 +30,7 @@ def draw(name: str, analysed: dict[str, Dispersion], caption: str, path) -> None
 def over_k(figure, axes, found: Dispersion, top: float) -> None:
     """In 1-D a curve."""
     axes.plot(found.grid.lengths, np.maximum(found.growth[:, 0, 0], 0), color="#444444")
-    axes.set(xlabel="k dx", ylabel=f"growth [{unit_of(found)}]", ylim=(-0.02 * top, 1.1 * top))
+    axes.set(xlabel="k dx", ylabel=f"growth [{unit(found)}]", ylim=(-0.02 * top, 1.1 * top))
 
 
 def over_plane(figure, axes, found: Dispersion, top: float) -> None:
@@ -55,9 +40,8 @@ def over_plane(figure, axes, found: Dispersion, top: float) -> None:
     shown = axes.pcolormesh(
         *half_disc(found), norm=LogNorm(STILL, top), cmap="inferno", shading="gouraud", rasterized=True
     )
-    figure.colorbar(shown, ax=axes, label=f"growth [{unit_of(found)}]; black: below {STILL:g}")
-    field = "B" if found.gas.v_A else "x"
-    axes.set(xlabel=f"k dx along {field}", ylabel=f"k dx across {field}", aspect="equal")
+    figure.colorbar(shown, ax=axes, label=f"growth [{unit(found)}]; black: below {STILL:g}")
+    axes.set(xlabel=f"k dx along {axis_of(found)}", ylabel="k dx across it", aspect="equal")
     if found.best["growth"] > STILL:
         axes.plot(*seen(found), color=ON_MAP, clip_on=False, **RING)
 
@@ -89,7 +73,7 @@ def over_wavelength(axes, found: Dispersion) -> None:
     if best["growth"] > STILL:
         words = f"largest: {best['growth']:.3f}, {best['wavelength']:.2f} dx, {best['angle']:.0f} degrees"
         axes.plot([best["wavelength"]], [best["growth"]], color=MARK, label=words, **RING)
-    axes.set(ylabel=f"growth [{unit_of(found)}]", ylim=(-0.02 * room, 1.15 * room))
+    axes.set(ylabel=f"growth [{unit(found)}]", ylim=(-0.02 * room, 1.15 * room))
     axes.set_title("largest growth of any mode" if best["growth"] > STILL else "nothing grows", fontsize=10)
     axes.legend(fontsize=8, frameon=False)
     over(axes)
@@ -120,6 +104,9 @@ def over(axes) -> None:
     axes.xaxis.set_minor_formatter(NullFormatter())
 
 
-def unit_of(found: Dispersion) -> str:
-    """What growth is measured in."""
-    return "v_A/dx" if found.gas.v_A else "c_s/dx"
+def axis_of(found: Dispersion) -> str:
+    """What angles are counted from."""
+    B, dim = found.gas.B, len(found.grid.axes)
+    if not np.linalg.norm(B[:dim]) > 1e-9 * np.linalg.norm(B):
+        return "x"
+    return "B" if np.linalg.norm(B[dim:]) < 1e-9 * np.linalg.norm(B) else "the part of B in the plane"

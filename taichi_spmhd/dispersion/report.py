@@ -18,8 +18,7 @@ def write(out: Path, name: str, varied: dict, made: list[dict], whole: dict) -> 
     write_text(out / "dispersion.csv", rows.table_of_scan(made) if varied else rows.table_of_waves(whole))
     with writing(out / "dispersion.png"), replacing(out / "dispersion.png") as part:
         if varied:
-            unit = picture.unit_of(list(whole.values())[-1])
-            scan_picture.draw(name, varied, made, unit, words(here), part)
+            scan_picture.draw(name, varied, made, words(here), part)
         else:
             picture.draw(name, whole, words(here), part)
     record = {"scene": name, "scan": varied, "machine": here, "rows": made}
@@ -32,17 +31,29 @@ def tell(made: list[dict], varied: dict, whole: dict, out: Path, quiet: bool) ->
     """The fastest growth of each state; of a long scan the extremes."""
     if quiet:
         return
-    names = list(varied) or ["variant", "xi", "beta"]
-    last = list(whole.values())[-1]
     by_growth = sorted(made, key=lambda row: -row["growth"])
     shown = made if len(made) <= MANY else [*by_growth[:3], by_growth[-1]]
-    head = [*names, f"growth [{picture.unit_of(last)}]", "wavelength [dx]", "angle to B", "frequency"]
-    table(head, [[*(short(row[name]) for name in names), *mode(row)] for row in shown])
+    names = [name for name in ("variant", *varied, "xi", "beta", "lattice", "kernel") if told(name, varied, made)]
+    head = [*names, "growth", "wavelength [dx]", "angle to B", "frequency"]
+    table(head, [[*(short(given(row, name)) for name in names), *mode(row)] for row in shown])
     if len(made) > MANY:
         still = sum(row["growth"] < STILL for row in made)
         say(f"{len(made)} states: the fastest-growing three and the slowest; in {still} nothing grows")
-    say(f"lattice: {last.patch.name.replace('_', ' ')}, kernel: {type(last.scene.kernel).__name__}")
+    for label, found in whole.items():
+        if found.background.B is not None and not found.gas.v_A:
+            say(f"{label or 'here'}: no field in the mean of the start; --at X Y takes the state at a spot")
     say(f"written: {out / 'dispersion.png'}, dispersion.csv, dispersion.json")
+
+
+def told(name: str, varied: dict, made: list[dict]) -> bool:
+    """Whether a column says something: what varies, what differs, and the state itself."""
+    differs = len({str(given(row, name)) for row in made}) > 1
+    return name in varied or differs or (not varied and name != "variant") or (name == "variant" and not varied)
+
+
+def given(row: dict, name: str):
+    """What was set, or else what the state has."""
+    return row["parameters"].get(name, row.get(name))
 
 
 def short(value) -> str:
@@ -53,5 +64,6 @@ def short(value) -> str:
 def mode(row: dict) -> list[str]:
     """Growth, wavelength, angle and frequency in words."""
     if row["growth"] < STILL:
-        return [f"none (below {STILL:g})", "", "", ""]
-    return [f"{row['growth']:.4f}", f"{row['wavelength']:.3f}", f"{row['angle']:.1f}", f"{row['frequency']:.3g}"]
+        return [f"none (below {STILL:g} {row['unit']})", "", "", ""]
+    rate = f"{row['growth']:.4f} {row['unit']}"
+    return [rate, f"{row['wavelength']:.3f}", f"{row['angle']:.1f}", f"{row['frequency']:.3g}"]

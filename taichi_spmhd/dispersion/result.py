@@ -37,13 +37,15 @@ class Dispersion:
     lines: dict
 
 
-def worked_out(scene: Scene, found: Background, gas: Gas, patch: Patch, waves: PlaneWaves, lines: bool) -> Dispersion:
+def worked_out(
+    scene: Scene, found: Background, gas: Gas, patch: Patch, waves: PlaneWaves, lines: bool, tell
+) -> Dispersion:
     """Growth on the grid, a close look at its largest value, and the lines."""
     looked = grid(scene.dim, gas.B, len(patch.cell))
     k = looked.vectors().reshape(-1, scene.dim)
-    growth = waves.growth(k)
+    growth = waves.growth(k, tell)
     top = k[int(growth.argmax())]
-    if len(patch.cell) <= 2 and growth.max() > STILL:  # in a glass one look costs as much as the grid of a lattice
+    if len(patch.cell) <= 2 and scale(gas) * growth.max() > STILL:  # a look in a glass costs too much
         top = finest(waves.growth, top, looked.lengths[0])
     angles = () if not lines else LINES if scene.dim > 1 else LINES[:1]
     along = {angle: line(waves, gas, looked, angle, POINTS if len(patch.cell) <= 2 else FEW) for angle in angles}

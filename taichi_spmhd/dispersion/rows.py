@@ -16,7 +16,13 @@ SPEEDS = [f"{kind}{name}" for kind in ("", "exact_", "damping_") for name in NAM
 def row(variant: str, parameters: dict, found: Dispersion) -> dict:
     """One analysed state: what was set, xi and beta, and its fastest-growing mode."""
     best = {**found.best, "eigenvector": {name: [a.real, a.imag] for name, a in found.best["eigenvector"].items()}}
-    return {"variant": variant, **parameters, "xi": xi(found), "beta": found.gas.beta, **best}
+    state = {"xi": xi(found), "beta": found.gas.beta, "lattice": found.patch.name, "kernel": repr(found.scene.kernel)}
+    return {"variant": variant, "parameters": parameters, **state, **best, "unit": unit(found)}
+
+
+def unit(found: Dispersion) -> str:
+    """What growth and frequency are measured in."""
+    return "v_A/dx" if found.gas.v_A else "c_s/dx"
 
 
 def xi(found: Dispersion) -> float:
@@ -35,7 +41,8 @@ def state(found: Dispersion) -> dict:
         "B": gas.B,
         "cs": gas.cs,
         "v_A": gas.v_A,
-        "unit_of_growth": f"{'v_A' if gas.v_A else 'c_s'}/dx = {gas.pace / found.patch.dx:.6g}",
+        "unit": unit(found),
+        "unit_of_growth": gas.pace / found.patch.dx,
         "lattice": found.patch.name,
         "dx": found.patch.dx,
         "kernel": repr(scene.kernel),
@@ -51,8 +58,10 @@ def lines(found: Dispersion) -> dict:
 
 def table_of_scan(rows: list[dict]) -> str:
     """CSV: one line an analysed state."""
-    names = [name for name in rows[0] if name not in ("k", "eigenvector")]
-    return as_csv([*names, "k_x", "k_y", "k_z"], [[r[n] for n in names] + padded(r["k"]) for r in rows])
+    names = [name for name in rows[0] if name not in ("parameters", "k", "eigenvector")]
+    given = list(rows[0]["parameters"])
+    head = [f"set {name}" for name in given] + [*names, "k_x", "k_y", "k_z"]
+    return as_csv(head, [[*(r["parameters"][n] for n in given), *(r[n] for n in names), *padded(r["k"])] for r in rows])
 
 
 def table_of_waves(analysed: dict[str, Dispersion]) -> str:

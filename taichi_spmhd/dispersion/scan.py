@@ -27,7 +27,8 @@ class Scan:
     def __init__(self, path: Path, given: dict, words: list[str], wanted=None):
         self.path, self.given, self.wanted = path, given, wanted
         self.known = parameters(module(path).scenes)
-        scene = next(iter(load_scene(path, **given).values()))  # what is wrong shows before anything is computed
+        loaded = load_scene(path, **given)  # what is wrong shows before anything is computed
+        scene = next((loaded[label] for label in loaded if label in (wanted or loaded)), next(iter(loaded.values())))
         self.scanned = ranges(words, self.known, scene)
         for name in set(self.scanned) & set(given):
             raise InputError(f"--set and --scan: {name} is in both; leave it out of one of them")

@@ -17,10 +17,9 @@ LARGE, FEW = 100, 8  # matrices of more rows are worked out so many at a time, s
 
 
 class PlaneWaves:
-    """M(k) for any wave vectors k (K, d), in units of dx and of the response's pace. tell(share) hears of progress."""
+    """M(k) for any wave vectors k (K, d), in units of dx and of the response's pace."""
 
-    def __init__(self, response: Response, tell: Callable[[float], None] = lambda share: None):
-        self.tell = tell
+    def __init__(self, response: Response):
         patch = response.patch
         self.names, self.dim, self.size = response.names, patch.positions.shape[1], len(patch.cell)
         self.places = patch.positions[patch.cell] / patch.dx
@@ -58,12 +57,12 @@ class PlaneWaves:
                 out[:, a, :, b, :] += (phases[:, own] @ block).reshape(len(k), n, n)
         return out.reshape(len(k), m * n, m * n)
 
-    def growth(self, k: np.ndarray) -> np.ndarray:
-        """The largest growth rate of each wave vector, (K,)."""
+    def growth(self, k: np.ndarray, tell: Callable[[float], None] = lambda share: None) -> np.ndarray:
+        """The largest growth rate of each wave vector, (K,); tell(share) hears of progress."""
         found, parts = [], self.parts(k)
         for n, part in enumerate(parts):
             found.append(np.linalg.eigvals(self.matrices(part)).real.max(axis=1))
-            self.tell((n + 1) / len(parts))
+            tell((n + 1) / len(parts))
         return np.concatenate(found)
 
     def modes(self, k: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

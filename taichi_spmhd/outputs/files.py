@@ -32,6 +32,15 @@ def cure(error: OSError) -> str:
     return f"{error.strerror or error}; choose another folder with --out"
 
 
+def folder_at(out) -> Path:
+    """A path for a folder. Raises InputError where a file is in its way."""
+    out = Path(out)
+    for part in (out, *out.parents):
+        if part.exists() and not part.is_dir():
+            raise InputError(f"--out {out}: {part} is a file; give a folder")
+    return out
+
+
 def write_text(path: Path, text: str) -> None:
     """Replace a text file in one piece; it is on the disk when this returns."""
     with writing(path), replacing(path) as part:

@@ -7,7 +7,7 @@ from pathlib import Path
 from ..errors import InputError
 from ..library import slug
 from ..replacing import replacing
-from .files import as_json, put, read_json, write_text, writing
+from .files import as_json, folder_at, put, read_json, write_text, writing
 from .record import sound
 
 CURES = {
@@ -24,11 +24,8 @@ class Folder:
     """
 
     def __init__(self, root):
-        self.root = Path(root)
+        self.root = folder_at(root)
         self.record: dict = {}
-        for part in (self.root, *self.root.parents):
-            if part.exists() and not part.is_dir():
-                raise InputError(f"--out {self.root}: {part} is a file; give a folder")
         if self.frames.exists() and not self.frames.is_dir():
             raise InputError(f"--out {self.root}: {self.frames} is a file; remove it or give another folder")
 

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from ..checkpoint import Lost
 from ..replacing import sync_folder
 from ..simulation import Simulation
+from .files import writing
 from .folder import Folder
 
 
@@ -26,8 +27,9 @@ def load(folder: Folder, label: str, scene, note: Callable[[str], None]) -> tupl
         if not previous.exists():
             raise
         sim, said = before(previous, scene, lost), why(lost)
-    os.replace(previous, state)  # at once: the next state to be written must not push out the good one
-    sync_folder(folder.root)
+    with writing(state):  # at once: the next state to be written must not push out the good one
+        os.replace(previous, state)
+        sync_folder(folder.root)
     note(f"{said}; going on from the state before it, t = {sim.time:.6g}")
     return sim, True
 

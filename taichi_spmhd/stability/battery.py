@@ -1,6 +1,6 @@
 """The battery: which trials there are, in which order, and how far each case is from trouble."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 from ..errors import InputError
@@ -15,18 +15,19 @@ BEST = "robust"  # the preset that must be sound everywhere and whose margins ar
 
 @dataclass(frozen=True)
 class Task:
-    """One trial to be made; beyond: harder than the case asks for."""
+    """One trial to be made; whole: of the whole battery; beyond: harder than the case asks for."""
 
     case: Case
     preset: str
     value: object
     nx: int
+    whole: bool = False
     beyond: bool = False
 
-    def make(self) -> dict:
-        """Runs it; the row of the table."""
+    def make(self, check: Callable[[], None] = lambda: None) -> dict:
+        """Runs it; the row of the table. check(), after every step, may raise to stop."""
         scene = PRESETS[self.preset].scene(self.case.make(self.value, self.nx))
-        return {**self.named(), **trial(scene, self.case.limits)}
+        return {**self.named(), **trial(scene, self.case.limits, check)}
 
     def named(self) -> dict:
         """What tells it from the others."""
@@ -36,6 +37,7 @@ class Task:
             "value": self.value,
             "preset": self.preset,
             "nx": self.nx,
+            "whole": self.whole,
             "beyond_asked": self.beyond,
         }
 
@@ -48,21 +50,26 @@ def wanted(only: list[str] | None, known: dict, what: str) -> list[str]:
     return [name for name in known if not only or name in only]
 
 
-def tasks(cases: list[str], presets: list[str], whole: bool) -> Iterator[Task]:
+def best_of(presets: list[str]) -> str:
+    """The preset whose margins are told."""
+    return BEST if BEST in presets else presets[-1]
+
+
+def tasks(cases: list[str], presets: list[str], whole: bool, precision: str = "f64") -> Iterator[Task]:
     """All that must be sound, case by case, then for each what is beyond; send(row) what came out of the last one.
 
     What is beyond is tried until it fails, of one preset: the best there is among those asked for.
     """
-    best = BEST if BEST in presets else presets[-1]
+    best = best_of(presets)
     for name in cases:
         case = CASES[name]
-        nx, values = case.chosen(whole)
+        nx, values = case.chosen(whole, precision)
         for preset in presets:
             for value in values:
-                yield Task(case, preset, value, nx)
+                yield Task(case, preset, value, nx, whole)
         if whole:
-            for value in case.beyond:
-                row = yield Task(case, best, value, nx, beyond=True)
+            for value in case.further(precision):
+                row = yield Task(case, best, value, nx, whole, beyond=True)
                 if row and row["verdict"] == FAILED:
                     break
 

@@ -39,7 +39,8 @@ class Problem:
 class Limits:
     """Beyond these a run that has finished is not sound.
 
-    energy: off the ledger, of all energy there is; momentum: off the ledger, of M times the largest r.m.s. velocity;
+    energy: off the ledger, of all energy there is; momentum: off the ledger, of M times the largest r.m.s. velocity,
+    or r.m.s. speed of signals where that is more;
     close: share of particles nearer to a neighbour than half a spacing; div_B: mean of h |div B| / |B|.
     """
 
@@ -49,12 +50,16 @@ class Limits:
     div_B: float = inf
 
 
+SHOCKED = Limits(energy=0.02, close=0.02)  # where shocks take apart what lattice there was
+
+
 @dataclass(frozen=True)
 class Case:
     """make(value, nx) -> Problem at a value of the parameter `hard`.
 
     values: those that must be sound, the hardest last; beyond: harder ones, to find how far it is to trouble; nx: of
-    the whole battery and of the quick one; quick: the values of the quick one (default: the hardest).
+    the whole battery and of the quick one; quick: the values of the quick one (default: the hardest); single: the
+    values in f32, where it cannot represent the others.
     """
 
     name: str
@@ -66,7 +71,13 @@ class Case:
     nx: tuple[int, int] = (48, 24)
     limits: Limits = Limits()
     quick: tuple | None = None
+    single: tuple | None = None
 
-    def chosen(self, whole: bool) -> tuple[int, tuple]:
+    def chosen(self, whole: bool, precision: str = "f64") -> tuple[int, tuple]:
         """Resolution and values of the whole battery, or of the quick one."""
-        return (self.nx[0], self.values) if whole else (self.nx[1], self.quick or self.values[-1:])
+        values = self.single if self.single and precision == "f32" else self.values
+        return (self.nx[0], values) if whole else (self.nx[1], self.quick or values[-1:])
+
+    def further(self, precision: str) -> tuple:
+        """What is beyond; nothing where f32 cannot even tell the stated values apart."""
+        return () if self.single and precision == "f32" else self.beyond

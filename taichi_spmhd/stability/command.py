@@ -22,7 +22,7 @@ def main(args, device: dict) -> int:
     record = Record(args.out or Path("out") / "stability", device["precision"])
     with Stop() as stop:
         try:
-            made = carry_out(record, tasks(cases, presets, whole), stop, args.quiet)
+            made = carry_out(record, tasks(cases, presets, whole, record.precision), stop, args.quiet)
         except Interrupted:
             finish(record, args.quiet)
             return complain(f"interrupted; what was found is in {record.root}", INTERRUPTED)
@@ -42,7 +42,7 @@ def carry_out(record: Record, asked, stop: Stop, quiet: bool) -> list[dict]:
         task = next(asked)
         while True:
             stop.check()
-            row = task.make()
+            row = task.make(stop.check)
             record.add(row)
             made.append(row)
             report.tell(row, quiet)

@@ -1,6 +1,6 @@
 """The picture of a battery: a line a case, a column a preset, a square a value from easy to hard; and xi over beta."""
 
-from ..dispersion.picture import finished, sheet
+from ..outputs.figure import finished, sheet
 from .battery import shown
 from .cases import CASES
 from .presets import PRESETS

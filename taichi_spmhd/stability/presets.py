@@ -37,7 +37,6 @@ class Preset:
     kernel: Kernel
     friction: Callable[[], tuple[Term, ...]]
     cures: Callable[[], tuple[Term, ...]]
-    cour: float = 0.3
 
     def scene(self, problem: Problem) -> Scene:
         """The scene of a problem."""
@@ -45,7 +44,7 @@ class Preset:
         terms = (*own, *self.friction(), *problem.extra)
         replaced = {type(term).__name__ for term in problem.extra}
         kept = [t for t in terms if t in problem.extra or type(t).__name__ not in (*problem.without, *replaced)]
-        given = {"kernel": self.kernel, "stepper": LeapfrogKDK(cour=self.cour), "density": problem.density}
+        given = {"kernel": self.kernel, "stepper": LeapfrogKDK(), "density": problem.density}
         return Scene(
             box=problem.box,
             positions=problem.positions,

@@ -3,20 +3,21 @@
 from pathlib import Path
 
 from ..errors import InputError
-from ..machine import machine
-from ..outputs.files import as_json, plain, read_json, write_text, writing
+from ..machine import machine, words
+from ..outputs.files import as_json, folder_at, plain, read_json, write_text, writing
+from .cases import CASES
+from .presets import PRESETS
+from .trial import FAILED, SOUND, UNSOUND
 
-KEY = ("case", "value", "preset", "nx", "precision")
+KEY = ("case", "value", "preset", "whole", "precision")
+WORDS = {"verdict": (SOUND, UNSOUND, FAILED), "whole": (True, False), "beyond_asked": (True, False)}
 
 
 class Record:
     """Rows in the order in which they were first made; trials of another precision or preset stand beside them."""
 
     def __init__(self, root, precision: str):
-        self.root, self.precision = Path(root), precision
-        for part in (self.root, *self.root.parents):
-            if part.exists() and not part.is_dir():
-                raise InputError(f"--out {root}: {part} is a file; give a folder")
+        self.root, self.precision = folder_at(root), precision
         self.rows = earlier(self.path)
 
     @property
@@ -25,7 +26,7 @@ class Record:
 
     def add(self, row: dict) -> None:
         """One more, on the disk when this returns."""
-        row = plain({**row, "precision": self.precision})
+        row = plain({**row, "precision": self.precision, "made": words(machine())})
         same = [n for n, other in enumerate(self.rows) if key(other) == key(row)]
         if same:
             self.rows[same[0]] = row
@@ -33,7 +34,15 @@ class Record:
             self.rows.append(row)
         with writing(self.root):
             self.root.mkdir(parents=True, exist_ok=True)
-        write_text(self.path, as_json({"machine": machine(), "rows": self.rows}))
+        write_text(self.path, as_json({"rows": self.rows}))
+
+
+def whole(row) -> bool:
+    """Whether a row has what tables and pictures ask of it."""
+    names = {*KEY, *WORDS, "hard", "beyond", "t", "made"}
+    if not isinstance(row, dict) or not names <= set(row) or row["case"] not in CASES or row["preset"] not in PRESETS:
+        return False
+    return all(row[name] in words for name, words in WORDS.items()) and isinstance(row["beyond"], list)
 
 
 def key(row: dict) -> tuple:
@@ -47,6 +56,6 @@ def earlier(path: Path) -> list[dict]:
         return []
     found = read_json(path)
     rows = found.get("rows") if isinstance(found, dict) else None
-    if not isinstance(rows, list) or not all(isinstance(r, dict) and set(KEY) <= set(r) for r in rows):
+    if not isinstance(rows, list) or not all(map(whole, rows)):
         raise InputError(f"{path}: not the record of a battery, or damaged; remove it or choose another folder")
     return rows

@@ -2,12 +2,11 @@
 
 from pathlib import Path
 
-from ..machine import machine, words
 from ..outputs.files import write_text, writing
 from ..outputs.words import say
 from ..replacing import replacing
 from . import picture
-from .battery import BEST, margin, shown
+from .battery import best_of, margin, shown
 from .cases import CASES
 from .presets import PRESETS
 from .trial import FAILED, SOUND, UNSOUND
@@ -16,11 +15,17 @@ SIGNS = {SOUND: "green", UNSOUND: "YELLOW", FAILED: "RED"}
 
 
 def finish(root: Path, rows: list[dict]) -> None:
-    """stability.md and stability.png from the rows."""
-    caption = words(machine())
+    """stability.md and stability.png of each precision's whole battery, or of its quick one where that is all."""
+    rows = [row for row in rows if row["whole"] or not any(r["whole"] for r in rows if same(r, row))]
+    caption = "; ".join(dict.fromkeys(row["made"] for row in rows))
     write_text(root / "stability.md", markdown(rows, caption))
     with writing(root / "stability.png"), replacing(root / "stability.png") as part:
         picture.draw(rows, caption, part)
+
+
+def same(one: dict, other: dict) -> bool:
+    """Of the same precision."""
+    return one["precision"] == other["precision"]
 
 
 def markdown(rows: list[dict], caption: str) -> str:
@@ -29,13 +34,14 @@ def markdown(rows: list[dict], caption: str) -> str:
     for precision in dict.fromkeys(row["precision"] for row in rows):
         own = [row for row in rows if row["precision"] == precision]
         out += [f"### {precision}", "", *table(own), "", *troubles(own), ""]
-    return "\n".join([*out, f"Made by `spmhd stability`; {caption}.", ""])
+    told = [f"- `{name}`: {PRESETS[name].about}" for name in PRESETS if any(row["preset"] == name for row in rows)]
+    return "\n".join([*out, *told, "", f"Made by `spmhd stability`; {caption}.", ""])
 
 
 def table(rows: list[dict]) -> list[str]:
     """A line a case: parameter and values, each preset's verdicts, the margin of the best, its worst measures."""
     presets = [name for name in PRESETS if any(row["preset"] == name for row in rows)]
-    best = BEST if BEST in presets else presets[-1]
+    best = best_of(presets)
     head = ["case", "what is made harder", *presets, f"margin ({best})", "energy", "close pairs", "div B"]
     lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
     for name in CASES:
@@ -82,7 +88,7 @@ def why(row: dict) -> str:
     """In words."""
     if row["verdict"] == UNSOUND:
         return "; ".join(row["beyond"])
-    return f"at {100 * row['t']:.0f} % of the time, {row['why']}"
+    return f"at {100 * row['t']:.0f} % of the time, {row.get('why', 'failed')}"
 
 
 def tell(row: dict, quiet: bool) -> None:

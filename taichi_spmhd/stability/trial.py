@@ -1,6 +1,7 @@
 """One trial: a scene run to its end or until it fails, and what is said of it."""
 
 import time
+from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import replace
 
@@ -8,7 +9,7 @@ import numpy as np
 
 from ..diagnostics.clumping import clumping
 from ..diagnostics.field import div_B_figures
-from ..diagnostics.ledger import drifts, energies
+from ..diagnostics.ledger import drifts, energies, momentum, predicted
 from ..errors import InputError, RunError
 from ..scene import Scene
 from ..simulation import Simulation
@@ -20,9 +21,9 @@ ROUNDING = {4: 1e-4, 8: 0.0}  # of momentum in f32, after thousands of steps of 
 PATIENCE = 200.0  # times the steps that Courant's limit asked for at the start: more is a step that has collapsed
 
 
-def trial(scene: Scene, limits: Limits) -> dict:
+def trial(scene: Scene, limits: Limits, check: Callable[[], None] = lambda: None) -> dict:
     """verdict, seconds, steps, what was measured on the way; why and where it failed, or what is beyond the limits."""
-    clock, seen = time.perf_counter(), Seen()
+    clock, seen = time.perf_counter(), Seen(check)
     try:
         with Simulation(scene) as sim:
             failure = run(sim, seen)
@@ -55,11 +56,12 @@ def run(sim: Simulation, seen: "Seen") -> dict | None:
 class Seen:
     """The worst of what was seen in a run."""
 
-    def __init__(self):
-        self.steps, self.worst = [], {}
+    def __init__(self, check: Callable[[], None]):
+        self.check, self.steps, self.worst = check, [], {}
 
     def step(self, sim: Simulation, most: float) -> None:
         """After every step: its length. Raises RunError for a run that gets nowhere."""
+        self.check()
         self.steps.append(sim.dt)
         if len(self.steps) > most:
             raise RunError(f"the time step fell: {len(self.steps)} steps to t = {sim.time:.4g} of {sim.scene.t_end:g}")
@@ -72,7 +74,7 @@ class Seen:
         scale = abs(sim.ledger.E0 or 1.0) / max(sum(map(abs, stored.values())) - abs(stored["E_tot"]), 1e-300)
         now = {
             "energy": abs(kept["energy_drift"] - kept["energy_drift_predicted"]) * scale,
-            "momentum": abs(kept["momentum_drift"] - kept["momentum_drift_predicted"]),
+            "momentum": lost_momentum(sim, columns),
             "xi_energy": abs(kept["energy_drift_predicted"]) * scale,
             "close": gaps["close_pairs"],
             "gap": -gaps["smallest_gap"],
@@ -90,6 +92,14 @@ class Seen:
         if self.steps:
             out["dt"] = [float(np.min(self.steps)), float(np.median(self.steps)), float(np.max(self.steps))]
         return out
+
+
+def lost_momentum(sim: Simulation, columns: dict) -> float:
+    """|p - p0 - what terms gave| over M times the largest r.m.s. velocity, or speed of signals where that is more."""
+    masses = columns["m"].astype(float)
+    signals = np.sqrt((masses * columns["vw"].astype(float) ** 2).sum() / masses.sum())
+    off = momentum(sim, columns) - sim.ledger.p0 - predicted(sim, columns)[1]
+    return float(np.linalg.norm(off) / (masses.sum() * max(sim.ledger.v_rms, signals)))
 
 
 def lowest_beta(columns: dict) -> float:

@@ -5,7 +5,7 @@ import numpy as np
 from ...boundary import Boundary
 from ...lattice import close_packed, hexagonal
 from ...library import load_scene
-from ..case import Case, Limits, Problem
+from ..case import SHOCKED, Case, Problem
 
 RATIOS = {0.2: 1e2, 2e-2: 1e3, 2e-4: 1e5}  # of the pressures, by beta outside; below 2e-4 as there
 
@@ -30,7 +30,7 @@ def noh(P: float, nx: int) -> Problem:
     def start(x):
         return {**scene.start(x), "P": P, "B": [0.0, 0.0, 0.05]}
 
-    return Problem(((-1.0, 1.0),) * 2, scene.positions, start, 0.6, boundary=Boundary())
+    return Problem(scene.box, scene.positions, start, 0.6, boundary=Boundary())
 
 
 def sedov(u: float, nx: int) -> Problem:
@@ -39,12 +39,10 @@ def sedov(u: float, nx: int) -> Problem:
 
     def start(x):
         given = scene.start(x)
-        return {**given, "u": given["u"] - 1e-6 + u, "B": [0.1, 0.0, 0.0]}
+        return {**given, "u": given["u"] - given["u"].min() + u, "B": [0.1, 0.0, 0.0]}
 
-    return Problem(((-0.5, 0.5),) * 2, scene.positions, start, scene.t_end)
+    return Problem(scene.box, scene.positions, start, scene.t_end)
 
-
-SHOCKED = Limits(energy=0.02, close=0.02)
 
 CASES = (
     Case("blast_beta", "a blast in a strong field, the pressures 1e2 to 1e5 apart", "beta outside",

@@ -40,7 +40,7 @@ def wave_3d(beta: float, nx: int) -> Problem:
     def start(x):
         return {**scene.start(x), "P": 0.5 * beta}
 
-    return Problem(scene.box.size, jitter(scene.positions, scene.box, 1e-3), start, 2.0)
+    return Problem(scene.box, jitter(scene.positions, scene.box, 1e-3), start, 2.0)
 
 
 def sheets(beta: float, bend: float, nx: int) -> Problem:
@@ -59,7 +59,7 @@ def sheets(beta: float, bend: float, nx: int) -> Problem:
 def loop(crossings: float, nx: int) -> Problem:
     """A field a million times weaker than the pressure, carried through the box again and again."""
     scene = load_scene("field_loop", nx=nx)["noise, with resistivity"]
-    return Problem(((-1.0, 1.0), (-0.5, 0.5)), scene.positions, scene.start, crossings)
+    return Problem(scene.box, scene.positions, scene.start, crossings)
 
 
 CASES = (

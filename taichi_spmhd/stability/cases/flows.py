@@ -5,26 +5,22 @@ import numpy as np
 from ...boundary import Boundary, Open
 from ...lattice import hexagonal, jitter, line
 from ...library import load_scene
-from ..case import Case, Limits, Problem
+from ..case import SHOCKED, Case, Problem
 
 P = 0.6  # with rho = 1 and gamma = 5/3 the speed of sound is 1
 FIELD = np.array([0.5, 0.5, 0.0])
 
 
-def streams(mach: float, nx: int, sign: float) -> Problem:
-    """v_x = -+ Mach for x >< 0 in the middle half of a periodic box: streams that meet, or part (sign = -1)."""
+def colliding(mach: float, nx: int) -> Problem:
+    """Two streams of a magnetised gas, v_x = -+ Mach for x >< 0, meet in the middle of a periodic box; behind them the
+    gas is torn apart."""
     box = ((-0.5, 0.5), (0.0, 0.5))
 
     def start(x):
-        v = -sign * mach * np.sign(x[:, 0]) * (np.abs(x[:, 0]) < 0.25)
+        v = -mach * np.sign(x[:, 0]) * (np.abs(x[:, 0]) < 0.25)
         return {"rho": 1.0, "P": P, "v": np.stack([v, 0 * v, 0 * v], axis=1), "B": FIELD}
 
     return Problem(box, jitter(hexagonal(box, nx), box, 0.01), start, 0.15 / max(1.0, mach / 2) ** 0.75)
-
-
-def colliding(mach: float, nx: int) -> Problem:
-    """Two streams of a magnetised gas meet head on; behind them it is torn apart."""
-    return streams(mach, nx, 1.0)
 
 
 def parting(mach: float, nx: int) -> Problem:
@@ -46,22 +42,19 @@ def orszag_tang(speed: float, nx: int) -> Problem:
         given = scene.start(x)
         return {**given, "v": speed * given["v"]}
 
-    return Problem((1.0, 1.0), scene.positions, start, 5.0 / speed)
+    return Problem(scene.box, scene.positions, start, 5.0 / speed)
 
 
 def rotor(speed: float, nx: int) -> Problem:
-    """The rotor, its edge `speed` times as fast as sound in the gas outside is slow: 2 in the literature."""
+    """The rotor with this speed of its edge: 2 in the literature."""
     scene = load_scene("rotor", nx=nx)["with cleaning"]
 
     def start(x):
         given = scene.start(x)
-        return {**given, "v": 0.5 * speed * given["v"]}
+        return {**given, "v": speed / np.linalg.norm(given["v"], axis=1).max() * given["v"]}
 
-    box = ((-0.5, 0.5), (-0.5, 0.5))
-    return Problem(box, scene.positions, start, 0.3 / speed, eos=scene.eos)
+    return Problem(scene.box, scene.positions, start, 0.3 / speed, eos=scene.eos)
 
-
-SHOCKED = Limits(energy=0.02, close=0.02)
 
 CASES = (
     Case("colliding_flow", "two magnetised streams meet", "Mach", colliding, (10.0, 30.0, 100.0), (300.0, 1000.0),

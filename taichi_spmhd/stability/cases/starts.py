@@ -42,5 +42,5 @@ CASES = (
     Case("strewn_3d", "the same in three dimensions", "beta", strewn_3d, (10.0, 1.0, 0.1), (1e-2, 1e-3), (14, 10),
          CLUMPED),
     Case("doubled", "one particle in twenty all but on its neighbour's spot", "gap", doubled,
-         (1e-3, 1e-6, 1e-9), (1e-12, 1e-14), (32, 20), CLUMPED),
+         (1e-3, 1e-6, 1e-9), (1e-12, 1e-14), (32, 20), CLUMPED, single=(1e-3,)),
 )  # fmt: skip
