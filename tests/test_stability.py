@@ -134,9 +134,9 @@ def rows_of(case: str, *verdicts) -> list[dict]:
     [
         ((SOUND, SOUND), "not asked"),
         ((SOUND, FAILED), "failed at beta = 0.001"),
-        ((SOUND, SOUND, SOUND, FAILED), "sound to 0.0001, failed at 1e-05"),
+        ((SOUND, SOUND, SOUND, FAILED), "sound to 0.0001, failed at 1e-06"),
         ((SOUND, SOUND, UNSOUND), "sound to 0.001, unsound at 0.0001"),
-        ((SOUND, SOUND, SOUND, SOUND), "sound to 1e-05, the last tried"),
+        ((SOUND, SOUND, SOUND, SOUND), "sound to 1e-06, the last tried"),
     ],
 )
 def test_the_margin_is_told_in_words(verdicts, words):
