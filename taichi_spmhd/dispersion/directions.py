@@ -7,7 +7,7 @@ import numpy as np
 from ..exact.waves import frame
 
 SHORTEST = {1: np.pi, 2: 4.45, 3: 5.45}  # |k| dx: the corner of what a lattice tells apart, sqrt(d) pi
-STEPS = 60  # halvings of the finer look
+STEPS = 60  # moves and halvings of the finer look
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,4 +1,4 @@
-"""The battery: hard cases, made harder until a scheme fails, and how far each is from trouble."""
+"""The battery: hard cases at growing hardness, which presets stand them, and how far each is from trouble."""
 
 from .case import Case, Limits, Problem
 from .cases import CASES
