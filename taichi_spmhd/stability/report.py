@@ -17,7 +17,7 @@ SIGNS = {SOUND: "green", UNSOUND: "YELLOW", FAILED: "RED"}
 def finish(root: Path, rows: list[dict]) -> None:
     """stability.md and stability.png of each precision's whole battery, or of its quick one where that is all."""
     rows = [row for row in rows if row["whole"] or not any(r["whole"] for r in rows if same(r, row))]
-    caption = "; ".join(dict.fromkeys(row["made"] for row in rows))
+    caption = "; ".join(dict.fromkeys(row["made"].rsplit(" ", 2)[0] for row in rows))  # without the time of the day
     write_text(root / "stability.md", markdown(rows, caption))
     with writing(root / "stability.png"), replacing(root / "stability.png") as part:
         picture.draw(rows, caption, part)
@@ -65,6 +65,10 @@ def verdicts(rows: list[dict], preset: str) -> str:
     """green where all values are; else which are not."""
     own = [row for row in rows if row["preset"] == preset and not row["beyond_asked"]]
     bad = [f"{SIGNS[row['verdict']]} at {shown(row['value'])}" for row in own if row["verdict"] != SOUND]
+    if len(bad) > 2:
+        return (
+            f"{bad[0]} ... {shown(own[-1]['value'])}" if len(bad) == len(own) else f"{bad[0]} and {len(bad) - 1} more"
+        )
     return "" if not own else ", ".join(bad) if bad else "green"
 
 
