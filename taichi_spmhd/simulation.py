@@ -13,6 +13,7 @@ from .lanes import best as lanes
 from .neighbours import Neighbours
 from .pairs import Pairs
 from .particles import Particles
+from .readable import Readable
 from .rhs import RHS
 from .scene import Scene
 from .sliding import Sliding
@@ -23,7 +24,7 @@ from .watch import Watch
 SMALLEST_STEP = 1e-10  # of the time to simulate: a step shorter than this has collapsed
 
 
-class Simulation:
+class Simulation(Readable):
     """The particles of a scene and what moves them.
 
         sim = Simulation(scene); sim.run(until=0.5); sim["rho"], sim.time, sim.steps, len(sim)
@@ -140,39 +141,6 @@ class Simulation:
         for until in times:
             if until >= self.time:
                 yield self.run(float(until))
-
-    def __len__(self) -> int:
-        return self.particles.n
-
-    def __getitem__(self, name: str) -> np.ndarray:
-        """A member as a numpy copy, (N,) or (N, components), in the order in which the particles were given."""
-        columns = self.columns()
-        if name not in columns:
-            raise KeyError(f"no member {name!r}; there are {', '.join(sorted(columns))}")
-        return columns[name]
-
-    def columns(self) -> dict[str, np.ndarray]:
-        """All members at the present time, one read for all."""
-        self.begin()
-        self.rhs.close(self.time, 0.0)
-        return state.present(self)
-
-    def rates(self) -> dict[str, np.ndarray]:
-        """d/dt of every evolved member at the present state; the run is not disturbed."""
-        self.begin()
-        return state.rates(self)
-
-    def sample(self, name: str, points: np.ndarray) -> np.ndarray:
-        """Normalised SPH interpolation sum m/rho A W / sum m/rho W at points (M, d) -> (M,) or (M, 3)."""
-        from .diagnostics.sample import interpolate
-
-        return interpolate(self, name, points)
-
-    def summary(self) -> dict:
-        """What summary.json says of a variant."""
-        from .diagnostics.summary import summary
-
-        return summary(self)
 
     def save(self, path, previous=None) -> None:
         """Write all it takes to go on with the same bits; only a complete file replaces an existing one.
