@@ -82,29 +82,13 @@ def load(cls, path, scene, spare=None):
 
 def admit(sim, path, saved: dict) -> None:
     """Put a checked file into a simulation just built."""
-    p = sim.particles
-    runs = WORDS[p.word().itemsize]
-    if str(saved["precision"]) != runs:
-        raise InputError(
-            f"{path}: saved in {saved['precision']}, this process runs {runs}; add --precision {saved['precision']}"
-        )
-    if str(saved["scene"]) != sim.scene.sketch():
-        raise InputError(f"{path}: saved by another scene, {saved['scene']}; give the scene and parameters the run had")
-    kept = own(sim)
-    if list(saved["columns"]) != list(columns(sim)[kept]):
-        other = sorted(set(saved["columns"]) ^ set(columns(sim)[kept]))
-        raise InputError(
-            f"{path}: saved by a scene with other members ({', '.join(other)}); list the terms the run had"
-        )
-    rates = p.rates()
-    wanted = {f"rate_{name}": rates[name] for name in own_rates(sim)}
-    now, ids = p.table()
-    check_alike(path, saved, {"table": now[:, kept], "ids": ids, "p0": np.zeros(3), **wanted})
-    numbers = {name: number(path, saved, name) for name in (*NUMBERS, *COUNTS, *STORY, *LEDGER)}
+    check_same(sim, path, saved)
+    numbers = check_whole(sim, path, saved)
+    p, kept = sim.particles, own(sim)
     table = np.zeros((p.n, p.width), saved["table"].dtype)
     table[:, kept] = saved["table"]
     p.admit(table, saved["ids"])
-    p.admit_rates({name: saved.get(f"rate_{name}", rate) for name, rate in rates.items()})
+    p.admit_rates({name: saved.get(f"rate_{name}", rate) for name, rate in p.rates().items()})
     sim.neighbours.retell(numbers)
     try:
         sim.neighbours.rebuild()
@@ -114,3 +98,29 @@ def admit(sim, path, saved: dict) -> None:
     sim.watch.before = numbers["before"]
     for name in NUMBERS + COUNTS:
         setattr(sim, name, numbers[name])
+
+
+def check_same(sim, path, saved: dict) -> None:
+    """Raises InputError for a state of another precision, scene or set of members."""
+    runs = WORDS[sim.particles.word().itemsize]
+    if str(saved["precision"]) != runs:
+        raise InputError(
+            f"{path}: saved in {saved['precision']}, this process runs {runs}; add --precision {saved['precision']}"
+        )
+    if str(saved["scene"]) != sim.scene.sketch():
+        raise InputError(f"{path}: saved by another scene, {saved['scene']}; give the scene and parameters the run had")
+    mine = columns(sim)[own(sim)]
+    if list(saved["columns"]) != list(mine):
+        other = sorted(set(saved["columns"]) ^ set(mine))
+        raise InputError(
+            f"{path}: saved by a scene with other members ({', '.join(other)}); list the terms the run had"
+        )
+
+
+def check_whole(sim, path, saved: dict) -> dict[str, float | int]:
+    """The numbers of a state. Raises Lost where one is missing, or an array is, or is of another shape."""
+    p = sim.particles
+    rates, (now, ids) = p.rates(), p.table()
+    wanted = {f"rate_{name}": rates[name] for name in own_rates(sim)}
+    check_alike(path, saved, {"table": now[:, own(sim)], "ids": ids, "p0": np.zeros(3), **wanted})
+    return {name: number(path, saved, name) for name in (*NUMBERS, *COUNTS, *STORY, *LEDGER)}
