@@ -38,6 +38,14 @@ class Advance:
             free -= ti.cast(s.held, float)
         return free
 
+    @ti.func
+    def renew(self, n, key: ti.template(), value):
+        """Write a member unless it is ill, and return whether it is: what is left tells which term spoilt it."""
+        ill = self.ill(value, key)
+        if ill == 0:
+            self.p.state.get_member_field(key)[n] = value
+        return ill
+
     @ti.kernel
     def predict(self, dt: float) -> ti.i32:
         """x += dt (v + dt/2 a), every evolved member q += dt dq/dt, old rates kept; returns the floors of u hit."""
@@ -57,21 +65,14 @@ class Advance:
 
     @ti.kernel
     def correct(self, dt: float) -> ti.i32:
-        """q += dt/2 (new rate - old rate); returns 1 + the place of an ill particle, 0 for none.
-
-        An ill value is not written: what is left tells which term spoilt it.
-        """
+        """q += dt/2 (new rate - old rate); returns 1 + the place of an ill particle, 0 for none."""
         found = 0
         for n in range(self.p.n):
             s, new, old = self.p.state[n], self.p.rate[n], self.p.old[n]
             ill = 0
             for key in ti.static(new.keys):
-                value = s[key] + 0.5 * dt * self.free(s, key) * (new[key] - old[key])
-                if self.ill(value, key):
-                    ill = n + 1
-                else:
-                    self.p.state.get_member_field(key)[n] = value
-            ti.atomic_max(found, ill)
+                ill |= self.renew(n, key, s[key] + 0.5 * dt * self.free(s, key) * (new[key] - old[key]))
+            ti.atomic_max(found, ill * (n + 1))
         return found
 
     @ti.kernel
@@ -85,12 +86,8 @@ class Advance:
             for c in ti.static(range(self.p.dim)):
                 self.p.state[n].x[c] = s.x[c] + a * back[c] + b * dt * s.v[c]
             for key in ti.static(r.keys):
-                value = a * start[key] + b * (s[key] + dt * self.free(s, key) * r[key])
-                if self.ill(value, key):
-                    ill = n + 1
-                else:
-                    self.p.state.get_member_field(key)[n] = value
-            ti.atomic_max(found, ill)
+                ill |= self.renew(n, key, a * start[key] + b * (s[key] + dt * self.free(s, key) * r[key]))
+            ti.atomic_max(found, ill * (n + 1))
         return found
 
     @ti.kernel
