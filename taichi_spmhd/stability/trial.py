@@ -9,7 +9,7 @@ import numpy as np
 
 from ..diagnostics.clumping import clumping
 from ..diagnostics.field import div_B_figures
-from ..diagnostics.ledger import drifts, energies, momentum, predicted
+from ..diagnostics.ledger import energies, momentum, predicted, speed, total
 from ..errors import InputError, RunError
 from ..scene import Scene
 from ..simulation import Simulation
@@ -69,16 +69,8 @@ class Seen:
     def look(self, sim: Simulation) -> None:
         """Arrangement, div B, conservation."""
         columns = sim.columns()
-        gaps, kept = clumping(sim, columns), drifts(sim, columns)
-        stored = energies(sim, columns)
-        scale = abs(sim.ledger.E0 or 1.0) / max(sum(map(abs, stored.values())) - abs(stored["E_tot"]), 1e-300)
-        now = {
-            "energy": abs(kept["energy_drift"] - kept["energy_drift_predicted"]) * scale,
-            "momentum": lost_momentum(sim, columns),
-            "xi_energy": abs(kept["energy_drift_predicted"]) * scale,
-            "close": gaps["close_pairs"],
-            "gap": -gaps["smallest_gap"],
-        }
+        gaps = clumping(sim, columns)
+        now = {**off_ledger(sim, columns), "close": gaps["close_pairs"], "gap": -gaps["smallest_gap"]}
         if "B" in columns:
             now.update({"div_B": div_B_figures(sim, columns)["mean"], "low_beta": -lowest_beta(columns)})
         for name, value in now.items():
@@ -94,12 +86,20 @@ class Seen:
         return out
 
 
-def lost_momentum(sim: Simulation, columns: dict) -> float:
-    """|p - p0 - what terms gave| over M times the largest r.m.s. velocity, or speed of signals where that is more."""
-    masses = columns["m"].astype(float)
-    signals = np.sqrt((masses * columns["vw"].astype(float) ** 2).sum() / masses.sum())
-    off = momentum(sim, columns) - sim.ledger.p0 - predicted(sim, columns)[1]
-    return float(np.linalg.norm(off) / (masses.sum() * max(sim.ledger.v_rms, signals)))
+def off_ledger(sim: Simulation, columns: dict) -> dict[str, float]:
+    """energy: |E - E0 - what terms gave| over all energies, xi_energy: what terms gave, likewise; momentum: |p - p0 -
+    what terms gave| over M times the largest r.m.s. velocity, or speed of signals where that is more."""
+    ledger, mass = sim.ledger, total(columns, np.ones(len(sim)))
+    ledger.v_rms = max(ledger.v_rms, speed(columns))
+    stored, (given, push) = energies(sim, columns), predicted(sim, columns)
+    size = max(sum(abs(value) for name, value in stored.items() if name != "E_tot"), 1e-300)
+    lost = np.linalg.norm(momentum(sim, columns) - ledger.p0 - push)
+    signals = np.sqrt(total(columns, columns["vw"].astype(float) ** 2) / mass)
+    return {
+        "energy": abs(stored["E_tot"] - ledger.E0 - given) / size,
+        "xi_energy": abs(given) / size,
+        "momentum": lost / (mass * max(ledger.v_rms, signals)),
+    }
 
 
 def lowest_beta(columns: dict) -> float:
