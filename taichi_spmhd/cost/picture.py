@@ -2,21 +2,16 @@
 
 import statistics
 
-from ..outputs.words import one_line
+from ..outputs.figure import PALE, finished, sheet
 from .calibration import STANDARD
 from .curves import anchored, curves, front, slopes
 
-PALE = "#555555"
 FEW = 3000  # range up to which 2 and 5 are written too
 
 
 def draw(plan, rows: list[dict], error: str, where: str, caption: str, path) -> None:
     """Write the PNG. where: device and precision, for the axes; caption: machine, version, date."""
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(9.6, 6.4), dpi=120, facecolor="white", layout="constrained")
-    canvas = FigureCanvasAgg(figure)
+    figure, canvas = sheet(9.6, 6.4, dpi=120)
     axes = figure.add_subplot(xscale="log", yscale="log")
     curves(axes, plan, rows)
     for k, anchor in enumerate(plan.anchors):
@@ -27,9 +22,7 @@ def draw(plan, rows: list[dict], error: str, where: str, caption: str, path) -> 
     labels(axes, plan, error, where)
     second_scale(axes, rows)
     legend(axes, plan)
-    figure.suptitle(f"{plan.name}: what accuracy costs in time", fontsize=13, fontweight="bold")
-    figure.text(0.008, -0.025, one_line(caption), fontsize=7.5, color=PALE)
-    canvas.print_figure(path, format="png", bbox_inches="tight", pad_inches=0.12)
+    finished(figure, canvas, f"{plan.name}: what accuracy costs in time", caption, path)
 
 
 def room(axes) -> None:

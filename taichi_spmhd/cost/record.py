@@ -4,7 +4,7 @@ import csv
 import io
 
 from ..errors import InputError
-from ..outputs.files import as_json, folder_at, plain, read_json, write_text, writing
+from ..outputs.files import as_json, folder_at, make, plain, read_json, write_text
 from ..outputs.folder import difference
 from .rows import rows
 from .sound import sound
@@ -55,8 +55,7 @@ class Record:
     def add(self, task, result: dict) -> None:
         """One more run, on the disk when this returns."""
         self.runs.append(plain({"key": task.setting.key, "round": task.round, **result}))
-        with writing(self.root):
-            self.root.mkdir(parents=True, exist_ok=True)
+        make(self.root)
         self.write()
 
     def write(self) -> None:

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from ..errors import InputError
 from ..library import find, parameters_of
-from ..outputs.files import folder_at, writing
+from ..outputs.files import folder_at, make
 from ..outputs.progress import progress
 from ..outputs.signals import Interrupted, Stop
 from ..scene_code import code_of
@@ -20,7 +20,7 @@ def main(args, given: dict) -> int:
 
     path = find(args.scene)
     scan = Scan(path, given, args.scan, args.variant)
-    out = place(args.out or Path("out") / "dispersion" / path.stem)
+    out = folder_at(args.out or Path("out") / "dispersion" / path.stem)
     made, whole = [], {}
     with Stop() as stop, code_of(path):
         try:
@@ -32,19 +32,12 @@ def main(args, given: dict) -> int:
     if not made and not stop.asked:
         raise InputError(f"--variant {' '.join(args.variant)}: no state of this scan has it; see spmhd show")
     if made:
+        make(out)
         report.write(out, path.stem, scan.varied, made, whole)
         report.tell(made, scan.varied, whole, out, args.quiet)
     if stop.asked:
         return complain(f"interrupted; {f'{len(made)} found, in {out}' if made else 'nothing found yet'}", INTERRUPTED)
     return DONE
-
-
-def place(out) -> Path:
-    """The folder, made."""
-    out = folder_at(out)
-    with writing(out):
-        out.mkdir(parents=True, exist_ok=True)
-    return out
 
 
 def analysed(scan: Scan, args, stop: Stop) -> Iterator[tuple]:

@@ -14,7 +14,7 @@ from PIL import Image
 
 from ..errors import InputError
 from ..library import slug
-from ..outputs.files import write_text, writing
+from ..outputs.files import make, write_text, writing
 from ..render import Panels, columns, write_gif, write_mp4, write_png
 
 MOST_FRAMES = 600  # of a film; then it ends by itself
@@ -79,16 +79,14 @@ class Recorder:
     def state(self, sim, label: str) -> list[str]:
         """All it takes to go on: `Simulation.load` with the recorded scene file."""
         path = self.free(f"state_{slug(label)}", "npz")
-        with writing(path):
-            self.folder.mkdir(parents=True, exist_ok=True)
+        make(self.folder)
         sim.save(path)
         return [path.name]
 
     def text(self, stem: str, content: str) -> str:
         """A scene file."""
         path = self.free(stem, "py")
-        with writing(path):
-            self.folder.mkdir(parents=True, exist_ok=True)
+        make(self.folder)
         write_text(path, content)
         return path.name
 

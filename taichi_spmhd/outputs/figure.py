@@ -5,12 +5,12 @@ from .words import one_line
 PALE = "#555555"
 
 
-def sheet(width: float, height: float):
+def sheet(width: float, height: float, dpi: int = 110):
     """A white figure and its canvas."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(width, height), dpi=110, facecolor="white", layout="constrained")
+    figure = Figure(figsize=(width, height), dpi=dpi, facecolor="white", layout="constrained")
     return figure, FigureCanvasAgg(figure)
 
 

@@ -3,7 +3,6 @@
 import errno
 import json
 import math
-import os
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -41,6 +40,12 @@ def folder_at(out) -> Path:
     return out
 
 
+def make(folder: Path) -> None:
+    """Make a folder and those above it, where they are not there yet."""
+    with writing(folder):
+        folder.mkdir(parents=True, exist_ok=True)
+
+
 def write_text(path: Path, text: str) -> None:
     """Replace a text file in one piece; it is on the disk when this returns."""
     with writing(path), replacing(path) as part:
@@ -48,11 +53,9 @@ def write_text(path: Path, text: str) -> None:
 
 
 def put(path: Path, text: str) -> None:
-    """Write a text file and wait for the disk."""
+    """Write a text file; `replacing` waits for the disk."""
     with open(path, "w", encoding="utf-8", newline="\n") as file:
         file.write(text)
-        file.flush()
-        os.fsync(file.fileno())
 
 
 def as_json(value) -> str:

@@ -7,7 +7,7 @@ from pathlib import Path
 from ..errors import InputError
 from ..library import slug
 from ..replacing import replacing
-from .files import as_json, folder_at, put, read_json, write_text, writing
+from .files import as_json, folder_at, make, put, read_json, write_text, writing
 from .record import sound
 
 CURES = {
@@ -86,8 +86,7 @@ class Folder:
     def claim(self, record: dict) -> None:
         """Begin anew: what an earlier run of this scene left is removed, once the disk has taken the new run.json."""
         self.check(record)
-        with writing(self.root):
-            self.frames.mkdir(parents=True, exist_ok=True)
+        make(self.frames)
         with writing(self.root / "run.json"), replacing(self.root / "run.json") as part:
             put(part, as_json(record))
             before = self.earlier()
@@ -113,8 +112,7 @@ class Folder:
             if before.get(name) != value:
                 raise InputError(f"--resume: {difference(name, before.get(name), value)}")
         self.record = before
-        with writing(self.root):
-            self.frames.mkdir(exist_ok=True)
+        make(self.frames)
         self.sweep()
         return before
 

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from ..errors import InputError
 from ..machine import machine, words
-from ..outputs.files import as_json, folder_at, plain, read_json, write_text, writing
+from ..outputs.files import as_json, folder_at, make, plain, read_json, write_text
 from .cases import CASES
 from .presets import PRESETS
 from .trial import FAILED, SOUND, UNSOUND
@@ -32,8 +32,7 @@ class Record:
             self.rows[same[0]] = row
         else:
             self.rows.append(row)
-        with writing(self.root):
-            self.root.mkdir(parents=True, exist_ok=True)
+        make(self.root)
         write_text(self.path, as_json({"rows": self.rows}))
 
 

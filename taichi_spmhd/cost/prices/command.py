@@ -7,7 +7,7 @@ from pathlib import Path
 
 from ...errors import InputError
 from ...machine import machine, words
-from ...outputs.files import as_json, read_json, write_text, writing
+from ...outputs.files import as_json, make, read_json, write_text, writing
 from ...outputs.progress import progress
 from ...outputs.signals import Interrupted, Stop
 from ...outputs.words import say, table
@@ -71,8 +71,7 @@ class List:
             f"{self.plan.arch}, {self.threads} thread{'s' if self.threads > 1 else ''}; variant {self.plan.labels[0]}"
         )
         foot = words(self.machine)
-        with writing(self.root):
-            self.root.mkdir(parents=True, exist_ok=True)
+        make(self.root)
         head = {"scene": self.plan.name, "parameters": self.plan.fixed, "variant": self.plan.labels[0]}
         head |= {"arch": self.plan.arch, "threads": self.threads, "rounds": self.rounds, "steps": STEPS}
         write_text(self.root / "prices.json", as_json({**head, "machine": self.machine, "prices": made}))

@@ -1,7 +1,7 @@
 """The price list as bars: what each term and choice adds to a step, and the phases of a step."""
 
 from ...bench.clocks import PHASES
-from ...outputs.words import one_line
+from ...outputs.figure import finished, sheet
 
 COLOURS = {"f64": "#0072b2", "f32": "#e69f00"}
 SHADES = ("#4d4d4d", "#8a8a8a", "#56b4e9", "#0072b2", "#d0d0d0")  # of the phases, in their order
@@ -9,21 +9,15 @@ SHADES = ("#4d4d4d", "#8a8a8a", "#56b4e9", "#0072b2", "#d0d0d0")  # of the phase
 
 def draw(name: str, found: dict[str, dict], where: str, caption: str, path) -> None:
     """Write the PNG; found: {precision: prices}."""
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
     good = {precision: made for precision, made in found.items() if "wrong" not in made}
     labels = list(dict.fromkeys(one["name"] for made in good.values() for one in rows(made)))
     height = 1.8 + 0.34 * len(labels) + 0.45 * len(good)
-    figure = Figure(figsize=(9.0, height), dpi=120, facecolor="white", layout="constrained")
-    canvas = FigureCanvasAgg(figure)
+    figure, canvas = sheet(9.0, height, dpi=120)
     ratio = [0.34 * len(labels) + 0.6, 0.45 * len(good) + 0.4]
     top, bottom = figure.subplots(2, 1, height_ratios=ratio)
     bars(top, labels, good)
     phases(bottom, good)
-    figure.suptitle(f"{name}: the price list ({where})", fontsize=12, fontweight="bold")
-    figure.text(0.008, -0.03, one_line(caption), fontsize=7.5, color="#555555")
-    canvas.print_figure(path, format="png", bbox_inches="tight", pad_inches=0.12)
+    finished(figure, canvas, f"{name}: the price list ({where})", caption, path)
 
 
 def rows(made: dict) -> list[dict]:
