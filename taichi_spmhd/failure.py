@@ -45,7 +45,7 @@ def beta(columns: dict, memory: int) -> float | None:
 def ill(sim) -> RunError:
     """A stepper found a value that is not finite, or u <= 0."""
     memory = sim.ill - 1
-    columns = sim.particles.by_name(sim.particles.table()[0], sim.particles.layout)
+    columns = sim.particles.in_memory()
     member = spoilt(sim, columns, memory)
     rates = sim.particles.rates()
     if member == "u" and np.isfinite(rates["u"][memory]) and np.isfinite(columns["u"][memory]):
@@ -55,7 +55,7 @@ def ill(sim) -> RunError:
 
 def collapsed(sim, what: str, t: float) -> RunError:
     """No step is left at time t: thermal energy has run out, or whose own step is shortest, and what limits it."""
-    columns = sim.particles.by_name(sim.particles.table()[0], sim.particles.layout)
+    columns = sim.particles.in_memory()
     if "u" in columns and not columns["u"].min() > 0:
         return explained(sim, f"{what}, thermal energy has run out", NEGATIVE, coldest(sim, columns))
     memory, limit = slowest(sim, t)

@@ -35,28 +35,19 @@ def glass(box, nx: int, kernel=None, seed: int = 0) -> np.ndarray:
     with Simulation(scene) as sim:
         sim.begin()
         for _ in range(ROUNDS):
-            table, ids = sim.particles.table()
-            push(sim, table, volume)
-            sim.particles.admit(table, ids)
-            sim.rhs.evaluate(0.0, 0.0)
-        table, ids = sim.particles.table()
-        relaxed = np.empty_like(x)
-        relaxed[ids], rho = columns_of(sim, table, "x"), columns_of(sim, table, "rho")
+            push(sim, volume)
+        relaxed, rho = (sim.particles.read()[name] for name in ("x", "rho"))
     if not rho.std() < UNEVEN * rho.mean():
         raise InputError("glass: the particles did not settle; take another seed, or more of them")
     return wrapped(relaxed, box)
 
 
-def push(sim, table: np.ndarray, volume: float) -> None:
+def push(sim, volume: float) -> None:
     """x += PUSH dx^2 dv/dt / c^2, a tenth of a spacing dx at most: longer steps would overshoot the shortest waves."""
-    dx = volume ** (1 / sim.dim)
-    step = PUSH * dx**2 * sim.particles.rates()["v"][:, : sim.dim]
-    longest = 0.1 * dx
+    p, dx = sim.particles, volume ** (1 / sim.dim)
+    step, longest = PUSH * dx**2 * p.rates()["v"][:, : sim.dim], 0.1 * dx
     step *= longest / np.maximum(longest, np.linalg.norm(step, axis=1, keepdims=True))
-    columns_of(sim, table, "x")[:] += step
-
-
-def columns_of(sim, table: np.ndarray, name: str) -> np.ndarray:
-    """The columns of a member in a table of all of them."""
-    first = {member: (first, kind) for member, kind, first in sim.particles.layout}[name]
-    return table[:, first[0] : first[0] + first[1]]
+    table, ids = p.table()
+    p.by_name(table, p.layout)["x"][:] += step
+    p.admit(table, ids)
+    sim.rhs.evaluate(0.0, 0.0)

@@ -30,6 +30,7 @@ class Particles:
         self.state, self.spare = self.place(self.State, n + 1), self.place(self.State, n + 1)
         self.rate, self.old = self.place(self.Rate), self.place(self.Rate)
         self.layout, self.width = layout({name: kind for name, kind in self.members.items() if name != "id"}, dim)
+        self.first = {name: first for name, _, first in self.layout}  # the column of a table where a member begins
         self.rate_layout, self.rate_width = layout(evolved, dim)
         self.word = np.float64 if ti.lang.impl.get_runtime().default_fp == ti.f64 else np.float32
         self.companions: list = []  # (field, spare) pairs that follow the state's order
@@ -134,6 +135,10 @@ class Particles:
         ordered[ids] = out
         return self.by_name(ordered, self.layout)
 
+    def in_memory(self) -> dict[str, np.ndarray]:
+        """All members by name, in memory order."""
+        return self.by_name(self.table()[0], self.layout)
+
     def rates(self) -> dict[str, np.ndarray]:
         """Rates of the last evaluation, in memory order."""
         out = np.empty((self.n, self.rate_width), self.word)
@@ -145,7 +150,7 @@ class Particles:
         self.admit_table_of_rates(np.column_stack([rates[name] for name, *_ in self.rate_layout]).astype(self.word))
 
     def by_name(self, table: np.ndarray, layout: list) -> dict[str, np.ndarray]:
-        """Columns of a table, shapes (n,) or (n, components)."""
+        """Columns of a table, as views: shapes (n,) or (n, components)."""
         return {
             name: table[:, first] if name in self.scalars else table[:, first : first + kind]
             for name, kind, first in layout

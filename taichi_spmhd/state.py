@@ -145,8 +145,7 @@ def open_members(sim) -> None:
     if sim.given_u is not None and not isinstance(sim.scene.eos, Radiating):
         p = sim.particles
         table, ids = p.table()
-        first = {name: first for name, _, first in p.layout}
-        table[:, first["P"]] = (sim.scene.eos.gamma - 1) * table[:, first["rho"]] * sim.given_u[ids]
+        table[:, p.first["P"]] = (sim.scene.eos.gamma - 1) * table[:, p.first["rho"]] * sim.given_u[ids]
         p.admit(table, ids)
     sim.rhs.open()
 

@@ -8,7 +8,7 @@ from .search import IMAGE
 
 def suspect(sim, cause: str) -> tuple[int, str]:
     """(place in memory, member)."""
-    columns = sim.particles.by_name(sim.particles.table()[0], sim.particles.layout)
+    columns = sim.particles.in_memory()
     if sim.ill:
         return sim.ill - 1, spoilt(sim, columns, sim.ill - 1)
     return FINDERS[cause](sim, columns)

@@ -133,7 +133,7 @@ def test_by_volume_equal_masses_give_the_rates_by_mass_and_unequal_ones_keep_the
     for name, values in ours.items():
         assert abs(theirs[name] - values).max() <= EQUAL * abs(values).max(), name
     table, ids = volume.particles.table()
-    column = {name: first for name, _, first in volume.particles.layout}["m"]
+    column = volume.particles.first["m"]
     table[:, column] *= np.random.default_rng(4).uniform(0.2, 5.0, len(table))
     volume.particles.admit(table, ids)
     push = volume["m"][:, None] * volume.rates()["v"]

@@ -7,7 +7,7 @@ from taichi_spmhd import Adiabatic, Isothermal, Scene, SumVolume, Total, load_sc
 from taichi_spmhd.dispersion.analysis import arrange, gas_of
 from taichi_spmhd.dispersion.background import background, uniform
 from taichi_spmhd.dispersion.branches import Gas, speeds
-from taichi_spmhd.dispersion.response import Response, first
+from taichi_spmhd.dispersion.response import Response
 from taichi_spmhd.dispersion.waves import PlaneWaves
 from taichi_spmhd.lattice import line
 from taichi_spmhd.simulation import Simulation
@@ -35,10 +35,10 @@ def rates_of_a_wave(sim, patch, response, k, amplitudes):
     for sign in (1, -1):
         moved = table.copy()
         for n, (name, c) in enumerate(response.names):
-            moved[:, first(sim, name) + c] += sign * (amplitudes[kinds, n] * phase).real * response.units[n]
+            moved[:, sim.particles.first[name] + c] += sign * (amplitudes[kinds, n] * phase).real * response.units[n]
         sim.particles.admit(moved, ids)
         sim.rhs.evaluate(0.0, 0.0)
-        pushed.append(response.rates(sim))
+        pushed.append(response.rates(sim, moved))
     sim.particles.admit(table, ids)
     answer = np.empty_like(pushed[0])
     answer[ids] = 0.5 * (pushed[0] - pushed[1]) / (response.units * response.pace)

@@ -73,7 +73,7 @@ def test_the_place_is_drawn_when_numbers_are_not_finite(simulate):
     sim = simulate(gas(2, boundary=Boundary(x=Open(), y=Open())))
     sim.step()
     table, ids = sim.particles.table()
-    first = {name: first for name, _, first in sim.particles.layout}
+    first = sim.particles.first
     for broken in ("u", "x", "h"):
         wrong = table.copy()
         wrong[5, first[broken]] = np.nan

@@ -94,7 +94,7 @@ def test_the_viscosity_switch_conserves_energy_and_only_heats_whatever_its_alpha
     sim = simulate(disordered_scene(*MHD, CullenDehnen(alpha=1.0)))
     sim.begin()
     table, ids = sim.particles.table()
-    column = {name: first for name, _, first in sim.particles.layout}["alpha"]
+    column = sim.particles.first["alpha"]
     table[:, column] = np.random.default_rng(5).uniform(0, 1, len(table))
     sim.particles.admit(table, ids)
     c, extra = added(sim, disordered(*MHD))

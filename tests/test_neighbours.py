@@ -174,7 +174,7 @@ def test_no_neighbour_is_lost_while_the_list_is_kept(simulate):
     sim = simulate(scene(jitter(square((1.0, 1.0), 20), (1.0, 1.0), 0.1), (1.0, 1.0), Periodic(), Periodic()))
     sim.begin()
     random, begun, inner = np.random.default_rng(8), sim.neighbours.builds, 0
-    first = {name: first for name, _, first in sim.particles.layout}["x"]
+    first = sim.particles.first["x"]
     for k in range(40):
         table, ids = sim.particles.table()
         table[:, first : first + 2] += random.uniform(-0.001, 0.001, (len(sim), 2))

@@ -221,7 +221,7 @@ def test_books_move_with_a_change_by_hand(begun):
     steps(begun)
     books, drift = Books.of(begun), drifts(begun)
     table, ids = begun.particles.table()
-    first = {name: first for name, _, first in begun.particles.layout}
+    first = begun.particles.first
     table[:, first["v"]] += 0.1
     begun.particles.admit(table, ids)
     assert abs(drifts(begun)[0] - drift[0]) > 1e-3

@@ -163,7 +163,7 @@ def test_the_viscosity_switch_sums_div_v_and_curl_v_and_uses_its_own_alpha(simul
     sim = simulate(disordered_scene(*MHD, CullenDehnen(alpha=0.9)))
     sim.begin()
     table, ids = sim.particles.table()
-    column = {name: first for name, _, first in sim.particles.layout}["alpha"]
+    column = sim.particles.first["alpha"]
     table[:, column] = np.random.default_rng(2).uniform(0, 0.9, len(table))
     sim.particles.admit(table, ids)
     c = sim.columns()

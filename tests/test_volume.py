@@ -127,7 +127,7 @@ def give_alpha(sim) -> None:
     """Some viscosity for a switch that starts at none: alpha by the particle's place at the start."""
     sim.begin()
     table, ids = sim.particles.table()
-    column = {name: first for name, _, first in sim.particles.layout}["alpha"]
+    column = sim.particles.first["alpha"]
     table[:, column] = 0.2 + 0.6 * ids / len(ids)
     sim.particles.admit(table, ids)
 

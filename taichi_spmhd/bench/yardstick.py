@@ -48,7 +48,7 @@ class Yardstick:
     def fill(self, sim, columns: np.ndarray) -> None:
         """The last column is nobody: no mass, far from h."""
         table, _ = sim.particles.table()
-        first = {name: first for name, _, first in sim.particles.layout}
+        first = sim.particles.first
         columns[: self.dim, :-1] = table[:, first["x"] : first["x"] + self.dim].T
         for row, name in enumerate(("hinv", "m", "P"), 3):
             columns[row, :-1] = table[:, first[name]]

@@ -36,6 +36,7 @@ class Response:
         table, ids = sim.particles.table()
         place = int(np.flatnonzero(ids == index)[0])
         found = np.stack([self.column(sim, table, ids, place, k) for k in range(len(self.names))])
+        sim.particles.admit(table, ids)
         in_order = np.empty_like(found)
         in_order[:, ids] = found
         felt = np.abs(in_order).max(axis=(0, 2))
@@ -46,8 +47,9 @@ class Response:
     def column(self, sim: Simulation, table: np.ndarray, ids: np.ndarray, place: int, k: int) -> np.ndarray:
         """(particles, rows): rates per push of one component, in units of both."""
         name, component = self.names[k]
-        where = first(sim, name) + component
-        size = SMALL * (float(table[place, first(sim, "u")]) if name in ("u", "E") else self.units[k])
+        first = sim.particles.first
+        where = first[name] + component
+        size = SMALL * (float(table[place, first["u"]]) if name in ("u", "E") else self.units[k])
         near, far = (self.slope(sim, table, ids, place, where, size * factor) for factor in (1.0, 4.0))
         return (2 * near - far) * self.units[k] / (self.units * self.pace)
 
@@ -60,16 +62,14 @@ class Response:
             steps.append(pushed[place, where])
             sim.particles.admit(pushed, ids)
             sim.rhs.evaluate(0.0, 0.0)
-            rates.append(self.rates(sim))
-        sim.particles.admit(table, ids)
+            rates.append(self.rates(sim, pushed))
         return (rates[0] - rates[1]) / (steps[0] - steps[1])
 
-    def rates(self, sim: Simulation) -> np.ndarray:
-        """Rates of all rows, (particles, rows): positions move with v."""
-        now, _ = sim.particles.table()
-        rates, v = sim.particles.rates(), first(sim, "v")
+    def rates(self, sim: Simulation, table: np.ndarray) -> np.ndarray:
+        """Rates of all rows, (particles, rows), last evaluated for this table: positions move with its v."""
+        rates, v = sim.particles.rates(), sim.particles.first["v"]
         return np.column_stack(
-            [now[:, v + c] if name == "x" else rates[name].reshape(len(now), -1)[:, c] for name, c in self.names]
+            [table[:, v + c] if name == "x" else rates[name].reshape(len(table), -1)[:, c] for name, c in self.names]
         )
 
 
@@ -77,11 +77,6 @@ def rows_of(sim: Simulation) -> list[tuple[str, int]]:
     """Positions, then every evolved member but what only the ledger keeps."""
     kinds = {"x": sim.dim, **{n: components(kind, sim.dim) for n, kind in sim.particles.evolved.items()}}
     return [(name, c) for name, count in kinds.items() if not name.startswith("leak") for c in range(count)]
-
-
-def first(sim: Simulation, name: str) -> int:
-    """The first column of a member."""
-    return next(first for member, _, first in sim.particles.layout if member == name)
 
 
 def unit(sim: Simulation, name: str, dx: float, speed: float) -> float:
