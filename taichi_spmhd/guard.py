@@ -1,4 +1,4 @@
-"""Guard: how far a run may stray before it is stopped.  (they change no bit of a run that goes on)"""
+"""Guard: how far a run may stray before it is stopped; a run that goes on has the same bits with any."""
 
 from dataclasses import dataclass
 from math import inf

@@ -122,11 +122,12 @@ def test_a_density_far_from_the_guess_is_found(guess):
 class Bang(Term):
     """dv_i/dt = sqrt(t0 - t): not a number from t0 on"""
 
+    t0: float = 0.02
     evolves = {"v": vec3}
 
     @ti.func
     def local(self, i, now):
-        return ti.Struct(v=ti.Vector([ti.sqrt(0.02 - now.t), 0.0, 0.0]))
+        return ti.Struct(v=ti.Vector([ti.sqrt(self.t0 - now.t), 0.0, 0.0]))
 
 
 @pytest.mark.parametrize("stepper", [Heun(), gas().stepper])

@@ -1,22 +1,21 @@
 """The battery of hard cases: each is sound at its stated parameters, and the battery sees what is not."""
 
 import json
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import inf
 
 import numpy as np
 import pytest
 from PIL import Image
+from test_guards import Bang
 from tiny import spmhd
 
-from taichi_spmhd import InputError, Term
-from taichi_spmhd.runtime import ti
+from taichi_spmhd import InputError
 from taichi_spmhd.stability import CASES, PRESETS, Limits
 from taichi_spmhd.stability.battery import BEST, Task, margin, tasks, wanted
 from taichi_spmhd.stability.record import Record
 from taichi_spmhd.stability.report import finish, markdown
 from taichi_spmhd.stability.trial import FAILED, SOUND, UNSOUND, trial
-from taichi_spmhd.types import vec3
 
 QUICK = [Task(case, BEST, value, case.chosen(False)[0]) for case in CASES.values() for value in case.chosen(False)[1]]
 
@@ -60,18 +59,6 @@ def test_the_conservative_equations_alone_clump_in_a_strong_field():
     # measured: a quarter of all particles closer than half a spacing to another
     row = Task(CASES["uniform_field"], "textbook", 0.1, 20).make()
     assert row["verdict"] == UNSOUND and row["close"] > 0.1 and "close" in row["beyond"][0]
-
-
-@dataclass(frozen=True)
-class Bang(Term):
-    """dv_i/dt = sqrt(t0 - t): not a number from t0 on"""
-
-    t0: float = 0.01
-    evolves = {"v": vec3}
-
-    @ti.func
-    def local(self, i, now):
-        return ti.Struct(v=ti.Vector([ti.sqrt(self.t0 - now.t), 0.0, 0.0]))
 
 
 def problem(**changes):
