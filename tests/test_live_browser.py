@@ -32,7 +32,7 @@ def page(chromium, server):
     page = sandbox.Page(chromium, server.url)
     page.open()
     page.pause()
-    if page.js("live.state?.panels?.length") == 2:
+    if page.js("live.state.panels.length") == 2:
         page.click("second")
     if not page.find("switch-0-Viscosity").is_selected():
         page.click("switch-0-Viscosity")

@@ -13,6 +13,7 @@ from hostile import catalogue, requests, send
 from taichi_spmhd.errors import InputError
 from taichi_spmhd.live import answers
 from taichi_spmhd.live.actions import checked
+from taichi_spmhd.live.desk import Desk
 from taichi_spmhd.live.plots import MOST, Plots
 from taichi_spmhd.live.wishes import MOST as MOST_WISHES
 
@@ -63,6 +64,17 @@ def test_a_long_poll_answers_when_the_state_changes(client, desk):
     clock = time.monotonic()
     state = client.get(f"state?after={seq}&row=0")
     assert state["seq"] == seq + 1 and 0.1 < time.monotonic() - clock < 5.0
+
+
+def test_before_the_run_has_begun_there_is_no_news(monkeypatch):
+    # a page that took "nothing yet" for the state did not know that the run plays, nor how many panels there are
+    monkeypatch.setattr(answers, "PATIENCE", 0.2)
+    empty = Desk()
+    with front.served(empty) as client:
+        assert client.get("state?after=-1&row=0")["seq"] == 0
+        monkeypatch.setattr(answers, "PATIENCE", 10.0)
+        threading.Timer(0.3, empty.publish_state, [{"panels": [{"t": 0.0}]}]).start()
+        assert client.get("state?after=-1&row=0")["panels"] == [{"t": 0.0}]
 
 
 def test_a_long_poll_of_a_paused_run_answers_after_a_while(client, monkeypatch):

@@ -122,10 +122,14 @@ class Desk:
                 self.questions_asked.remove(asked)
 
     def state_after(self, seq: int, row: int, seconds: float, gone: Callable = patient) -> dict:
-        """The state once its number is above `seq`, or when the time is over; with the plots' rows from `row` on."""
+        """The state once its number is above `seq`, or when the time is over; with the plots' rows from `row` on.
+
+        Before the first one was published there is none to be newer than anything: whoever asks waits, and is answered
+        with number 0 and no more where it took too long.
+        """
         with self.changed:
-            self.until(lambda: self.seq > seq, seconds, gone)
-            return {**self.state, "rows": self.plots.since(row)}
+            self.until(lambda: self.seq > max(seq, 0), seconds, gone)
+            return {"seq": self.seq, **self.state, "rows": self.plots.since(row)}
 
     def frame_after(
         self, panel: int, size: tuple[int, int], number: int, seconds: float, gone: Callable = patient

@@ -27,6 +27,7 @@ async function follow(version, anew) {
 /** One answer of the server: state, rows, what was applied. */
 async function listen(after, row) {
   const state = await getJSON(`state?after=${after}&row=${row}`);
+  if (!state.panels) return state; // the run has not begun yet
   await follow(state.setup, state.seq < after); // a smaller seq: another server stands at this address
   live.state = state;
   applied(state.applied);
