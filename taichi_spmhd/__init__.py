@@ -15,7 +15,7 @@ try:
     from .boundary import Boundary, Frozen, Open, Periodic, Reflecting
     from .box import Box
     from .density import SumMass, SumVolume
-    from .energy import Thermal, Total
+    from .energy import Dual, Thermal, Total
     from .eos import Adiabatic, Isothermal, LocallyIsothermal
     from .glass import glass
     from .guard import Guard
@@ -27,8 +27,9 @@ try:
     from .render import snapshot as picture
     from .runtime import init
     from .scene import Scene
+    from .schemes import Scheme, with_scheme
     from .simulation import Simulation
-    from .stepper import SSPRK3, Heun, LeapfrogKDK
+    from .stepper import SSPRK3, Heun, LeapfrogKDK, TimeCentred
     from .study import Anchor, Study
     from .terms import Choice, Part, Term
 except InputError as error:  # Taichi cannot be imported: said, in one line, by whatever needs it
@@ -53,6 +54,7 @@ __all__ = [
     "Box",
     "Choice",
     "CubicSpline",
+    "Dual",
     "Frozen",
     "Gaussian",
     "Guard",
@@ -69,12 +71,14 @@ __all__ = [
     "Reflecting",
     "RunError",
     "Scene",
+    "Scheme",
     "Simulation",
     "Study",
     "SumMass",
     "SumVolume",
     "Term",
     "Thermal",
+    "TimeCentred",
     "Total",
     "WendlandC2",
     "WendlandC4",
@@ -94,4 +98,5 @@ __all__ = [
     "square",
     "step_lattice",
     "terms",
+    "with_scheme",
 ]

@@ -64,6 +64,20 @@ class Advance:
         return floors
 
     @ti.kernel
+    def forward(self, dt: float) -> ti.i32:
+        """x += dt (v + dt/2 a), every evolved member q += dt dq/dt; returns 1 + the place of an ill particle, or 0."""
+        found = 0
+        for n in range(self.p.n):
+            s, r = self.p.state[n], self.p.rate[n]
+            ill = 0
+            for a in ti.static(range(self.p.dim)):
+                self.p.state[n].x[a] = s.x[a] + dt * (s.v[a] + 0.5 * dt * self.free(s, "v") * r.v[a])
+            for key in ti.static(r.keys):
+                ill |= self.renew(n, key, s[key] + dt * self.free(s, key) * r[key])
+            ti.atomic_max(found, ill * (n + 1))
+        return found
+
+    @ti.kernel
     def correct(self, dt: float) -> ti.i32:
         """q += dt/2 (new rate - old rate); returns 1 + the place of an ill particle, 0 for none."""
         found = 0

@@ -12,7 +12,7 @@ from functools import partial
 from . import runtime
 from .errors import InputError
 from .runtime import ti
-from .types import real, vec3, vecd
+from .types import components, real, vec3, vecd
 from .vector import Record, Vector3, nothing, struct_of, traced
 
 WIDEST = 8
@@ -69,7 +69,7 @@ class Lanes:
     @traced
     def totals(self, kinds: dict):
         """Sums that start at zero, in every lane."""
-        return Totals({name: [self.start() for _ in range(3 if kind is vec3 else 1)] for name, kind in kinds.items()})
+        return Totals({name: [self.start() for _ in range(components(kind, self.dim))] for name, kind in kinds.items()})
 
     @traced
     def start(self):
@@ -86,7 +86,8 @@ class Lanes:
     @traced
     def summed(self, totals: "Totals"):
         """Totals over the lanes, as a plain struct."""
-        return struct_of({name: [self.across(part) for part in parts] for name, parts in totals.parts.items()})
+        sums = {name: [self.across(part) for part in parts] for name, parts in totals.parts.items()}
+        return struct_of({name: row if len(row) > 1 else row[0] for name, row in sums.items()})
 
     @ti.func
     def slowest(self):

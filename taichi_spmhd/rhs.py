@@ -55,6 +55,12 @@ class RHS(Fused):
         self.rates(near, rows, t, dt, most, sums)
         return self.finish(t, dt, most, sums)
 
+    def renew(self, t: float) -> float:
+        """Density and all members of the present state, no rates; returns the longest step it allows by itself."""
+        self.neighbourhood()
+        self.close(t, 0.0)
+        return self.alone(t, self.moment.most)
+
     def neighbourhood(self) -> None:
         """A complete list, and density and h that belong to the present positions."""
         if self.near.builds == 0 or not self.near.holds():
@@ -112,8 +118,20 @@ class RHS(Fused):
             total = self.complete(i, self.sums.found(sums, n, self.totals), now)
             for key in ti.static(self.p.names):
                 self.p.rate.get_member_field(key)[n] = total[key]
-            fastest = self.sums.entry(sums, n, ti.static(width(self.totals)))
+            fastest = self.sums.entry(sums, n, ti.static(width(self.totals, self.p.dim)))
             ti.atomic_min(longest, ti.cast(self.step_of(i, total, fastest, now), ti.f32))
+        return longest
+
+    @ti.kernel
+    def alone(self, t: float, most: ti.types.ndarray(ndim=1)) -> ti.f32:
+        """The longest stable step as far as it is known without rates: of the signals and of each part's max_dt."""
+        longest = ti.cast(1e30, ti.f32)
+        for n in range(self.p.n):
+            i, now = self.p.state[n], self.moment.now(t, 0.0, most)
+            step = self.signal_step(i, i.vw)
+            for term in ti.static(self.dt_terms):
+                step = ti.min(step, term.max_dt(i, now))
+            ti.atomic_min(longest, ti.cast(step, ti.f32))
         return longest
 
     @ti.func

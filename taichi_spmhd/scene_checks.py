@@ -91,6 +91,17 @@ def check(scene: "Scene") -> None:
             raise InputError(f"terms: {both} are both a {shared[0].__name__}; list one of them")
     check_reference(scene)
     check_members(scene)
+    check_steps(scene)
+
+
+def check_steps(scene: "Scene") -> None:
+    """Rates that belong to a step as a whole, and the stepper that takes them so, come together."""
+    centred = [type(term).__name__ for term in scene.terms if getattr(term, "centred", False)]
+    if centred and not scene.stepper.centred:
+        raise InputError(f"Scene: {centred[0]} centres its rates in the step itself: give stepper=TimeCentred()")
+    if scene.stepper.centred and not centred:
+        name = type(scene.stepper).__name__
+        raise InputError(f"Scene: {name} is for GodunovHydro and GodunovMHD, which centre their rates; leave it out")
 
 
 def check_reference(scene: "Scene") -> None:

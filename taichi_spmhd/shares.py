@@ -27,7 +27,7 @@ def limits(rhs: ti.template(), t: float, dt: float, most: ti.types.ndarray(ndim=
     for n in range(rhs.p.n):
         i, now = rhs.p.state[n], rhs.moment.now(t, dt, most)
         total = rhs.complete(i, rhs.sums.found(sums, n, rhs.totals), now)
-        steps[n, 0] = rhs.signal_step(i, rhs.sums.entry(sums, n, ti.static(width(rhs.totals))))
+        steps[n, 0] = rhs.signal_step(i, rhs.sums.entry(sums, n, ti.static(width(rhs.totals, rhs.p.dim))))
         steps[n, 1] = rhs.force_step(i, total)
         steps[n, 2] = rhs.heat_step(i, total)
         for k, term in ti.static(enumerate(rhs.dt_terms)):

@@ -5,23 +5,23 @@ and whatever a term thinks of, is another kernel.
 """
 
 from .runtime import ti
-from .types import vec3
+from .types import components, vec3, vecd
 from .vector import struct_of, traced
 
 
-def places(kinds: dict) -> dict[str, range]:
+def places(kinds: dict, dim: int) -> dict[str, range]:
     """{name: columns} of a row that holds these sums one after the other."""
     out, first = {}, 0
     for name, kind in kinds.items():
-        size = 3 if kind is vec3 else 1
+        size = components(kind, dim)
         out[name] = range(first, first + size)
         first += size
     return out
 
 
-def width(kinds: dict) -> int:
+def width(kinds: dict, dim: int) -> int:
     """Columns of these sums."""
-    return sum(map(len, places(kinds).values()))
+    return sum(map(len, places(kinds, dim).values()))
 
 
 @ti.data_oriented
@@ -29,7 +29,8 @@ class Sums:
     """`rows` (n, width): room for the largest of several sets of sums {name: type name}."""
 
     def __init__(self, particles, *sets: dict):
-        particles.summed = max(map(width, sets))
+        self.dim = particles.dim
+        particles.summed = max(width(kinds, self.dim) for kinds in sets)
         self.rows = ti.ndarray(float, (particles.n, particles.summed))
 
     @traced
@@ -42,7 +43,8 @@ class Sums:
     @traced
     def found(self, rows, n, kinds: dict):
         """The sums that were kept, as a struct."""
-        return struct_of({name: [self.entry(rows, n, k) for k in columns] for name, columns in places(kinds).items()})
+        found = {name: [self.entry(rows, n, k) for k in at] for name, at in places(kinds, self.dim).items()}
+        return struct_of({name: row if kinds[name] in (vec3, vecd) else row[0] for name, row in found.items()})
 
     @ti.func
     def put(self, rows: ti.template(), n, column: ti.template(), value):

@@ -6,6 +6,8 @@ from .cleaning import Cleaning
 from .conductivity import Conductivity
 from .constant_cleaning import ConstantCleaning
 from .divb_source import DivBSource
+from .godunov_hydro import GodunovHydro
+from .godunov_mhd import GodunovMHD
 from .induction import Induction
 from .lecture_viscosity import LectureViscosity
 from .morris_monaghan import MorrisMonaghan
@@ -29,6 +31,8 @@ __all__ = [
     "ConstantCleaning",
     "CullenDehnen",
     "DivBSource",
+    "GodunovHydro",
+    "GodunovMHD",
     "Induction",
     "LectureViscosity",
     "LogLinearXi",

@@ -5,6 +5,7 @@ from ..errors import InputError
 from ..runtime import ti
 from ..types import real, vec3
 from .base import Term
+from .godunov_mhd import GodunovMHD
 from .xi_rules import XiRule
 
 
@@ -32,6 +33,11 @@ class DivBSource(Term):
                 "or be a rule, for example MinimalXi()"
             )
 
+    def among(self, parts: tuple) -> "DivBSource":
+        """The class that takes away what the scene's stress exerts along B."""
+        godunov = next((part for part in parts if isinstance(part, GodunovMHD)), None)
+        return self if godunov is None else CentredSource(self.xi, godunov.order)
+
     @property
     def reads(self) -> dict:
         """The pressure only where a rule asks for beta."""
@@ -55,3 +61,23 @@ class DivBSource(Term):
     def after(self, i, total, now):
         force = -self.strength(i) * total.S * i.B
         return ti.Struct(v=force, leak_v=force, leak_E=force.dot(i.v))
+
+
+@dataclass(frozen=True)
+class CentredSource(DivBSource):
+    """dv_i/dt = - xi B_i S_i,   S_i = sum_j Bn ( Gi + Gj ):   the div B that GodunovMHD contains, in mid-step
+
+    S is summed by GodunovMHD, which also books the work of this force.
+    """
+
+    order: int = 2
+    sums = {}
+    pair = None
+
+    @ti.func
+    def after(self, i, total, now):
+        B = i.B
+        if ti.static(self.order == 2):
+            B = i.B_mid
+        force = -self.strength(i) * total.S * B
+        return ti.Struct(v=force, leak_v=force)

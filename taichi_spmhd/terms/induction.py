@@ -4,6 +4,7 @@ from ..errors import InputError
 from ..runtime import ti
 from ..types import real, vec3
 from .base import Term
+from .godunov_mhd import GodunovMHD
 
 FORMS = ("B/rho", "B")
 
@@ -27,7 +28,9 @@ class Induction(Term):
             raise InputError(f'Induction: form = {self.form!r}; give "B/rho" (the default) or "B"')
 
     def among(self, parts: tuple) -> "Induction":
-        """The class that evolves what `form` says."""
+        """The class that evolves what `form` says, or only carries what Godunov's scheme induces."""
+        if any(isinstance(part, GodunovMHD) for part in parts):
+            return Carried(self.form)
         return InductionOfB(self.form) if self.form == "B" else self
 
     @ti.func
@@ -63,3 +66,23 @@ class InductionOfB(Term):
     @ti.func
     def after(self, i, total, now):
         return ti.Struct(B=i.rho * (total.b + total.closing * i.B))
+
+
+@dataclass(frozen=True)
+class Carried(Term):
+    """b = B/rho is evolved and B = rho b follows; GodunovMHD says at what rate, from its characteristics."""
+
+    form: str = "B/rho"
+    reads, makes, evolves = {"rho": real, "b": vec3}, {"B": vec3}, {"b": vec3}
+
+    def __post_init__(self):
+        if self.form != "B/rho":
+            raise InputError('Induction: GodunovMHD evolves B/rho; leave out form="B"')
+
+    @ti.func
+    def open(self, i, now):
+        return ti.Struct(b=i.B / i.rho)
+
+    @ti.func
+    def close(self, i, now):
+        return ti.Struct(B=i.rho * i.b)

@@ -1,0 +1,98 @@
+"""Gradients for the second order: sums over neighbours that are exact where a quantity is linear.
+
+    grad f = A^-1 rho_i sum_j ( f_j - f_i ) Gi e,   A = - rho_i sum_j Gi r e e   (the unit matrix in a perfect lattice)
+
+They are tensors of each particle; components along a pair's axis follow for every pair.
+"""
+
+from ..runtime import ti
+from ..types import real, vec3, vecd
+from ..vector import named, traced
+
+FLAT = 0.1  # the smallest determinant of A that is inverted: below, the neighbours are on one side only
+
+
+class Slopes:
+    """To be added to a Godunov term: gradients of P and of the vectors in `fields`, and the predicted state.
+
+    Makes dP, dvx, dvy, ... (the gradient of each component) and P_mid, rho_mid, v_mid, ... (the state half a step on).
+    """
+
+    @property
+    def gradients(self) -> dict:
+        return {"dP": vecd, **{f"d{name}{a}": vecd for name in self.fields for a in "xyz"}}
+
+    @property
+    def gathers(self) -> dict:
+        return {**self.gradients, **{f"A{a}": vecd for a in "xyz"[: self.dim]}}
+
+    @property
+    def makes(self) -> dict:
+        middle = {"P_mid": real, "rho_mid": real, **{f"{name}_mid": vec3 for name in self.fields}}
+        return {"vw": real, **self.gradients, **middle}
+
+    @traced
+    def gather(self, i, j, w):
+        along = named(w.e * w.Gi)
+        sums = {"dP": along * (j.P - i.P)}
+        for axis, letter in enumerate("xyz"[: self.dim]):
+            sums[f"A{letter}"] = along * (w.e.parts[axis] * w.r)
+        for name in self.fields:
+            apart = getattr(j, name) - getattr(i, name)
+            sums |= {f"d{name}{letter}": along * part for letter, part in zip("xyz", apart.parts, strict=True)}
+        return ti.Struct(sums)
+
+    @traced
+    def gathered(self, i, sums, now):
+        inverse = self.inverse(self.matrix(i, sums))
+        found = {name: self.turned(inverse, i.rho, getattr(sums, name)) for name in self.gradients}
+        slopes = ti.Struct(found)
+        return ti.Struct({**found, **self.middle(i, slopes, 0.5 * now.dt)})
+
+    @ti.func
+    def turned(self, inverse, rho, raw):
+        return rho * (inverse @ raw)
+
+    @ti.func
+    def matrix(self, i, sums):
+        """A"""
+        if ti.static(self.dim == 1):
+            return -i.rho * ti.Matrix.rows([sums.Ax])
+        elif ti.static(self.dim == 2):
+            return -i.rho * ti.Matrix.rows([sums.Ax, sums.Ay])
+        else:
+            return -i.rho * ti.Matrix.rows([sums.Ax, sums.Ay, sums.Az])
+
+    @ti.func
+    def inverse(self, A):
+        """A^-1; the unit matrix where A cannot be inverted."""
+        unit = ti.Matrix.identity(float, self.dim)
+        trusted = A.determinant() > FLAT
+        return ti.select(trusted, A, unit).inverse()
+
+    @traced
+    def middle(self, i, slopes, half) -> dict:
+        """The members of the middle of the step, unpredicted where half a step would change P or rho too much."""
+        ahead = self.predicted(i, slopes, half)
+        names = ("P", "rho", *self.fields)
+        return {f"{name}_mid": self.chosen(ahead.trusted, getattr(ahead, name), getattr(i, name)) for name in names}
+
+    @ti.func
+    def chosen(self, trusted, ahead, now):
+        return ti.select(trusted, ahead, now)
+
+    @ti.func
+    def divergence(self, slopes):
+        """div v"""
+        div = slopes.dvx[0]
+        if ti.static(self.dim > 1):
+            div += slopes.dvy[1]
+        if ti.static(self.dim > 2):
+            div += slopes.dvz[2]
+        return div
+
+    @ti.func
+    def moderate(self, closing):
+        """Whether P and rho keep more than a third of themselves, and less than three times: P changes by gamma times."""
+        change = self.law.law.gamma * closing
+        return ti.abs(change) < 0.7

@@ -1,0 +1,56 @@
+"""The same scene in another scheme: standard SPH with artificial dissipation, or Godunov's with Riemann problems."""
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Literal
+
+from .energy import Dual, Thermal
+from .eos import Radiating
+from .errors import InputError
+from .stepper import TimeCentred
+from .terms import (
+    Conductivity,
+    ConstantCleaning,
+    GodunovHydro,
+    GodunovMHD,
+    LectureViscosity,
+    Pressure,
+    Resistivity,
+    Stress,
+    TriccoPrice2013,
+    Viscosity,
+)
+from .terms.hyperbolic import Hyperbolic
+
+if TYPE_CHECKING:
+    from .scene import Scene
+
+Scheme = Literal["standard", "godunov"]
+DISSIPATION = (Viscosity, LectureViscosity, Conductivity, Resistivity, TriccoPrice2013)
+
+
+def with_scheme(scene: "Scene", scheme: Scheme, slope: str = "mean", **numbers) -> "Scene":
+    """The scene as it is ("standard"), or its gas by Riemann problems ("godunov").
+
+    Godunov's takes the place of Pressure or Stress and of all artificial dissipation, steps once a step (TimeCentred),
+    cleans with one c_h for all, and with a field evolves both energies (Dual). slope: of the pairs (SumMass); numbers:
+    of GodunovHydro or GodunovMHD, for example order=1. Raises InputError for a scheme that does not exist.
+    """
+    if scheme not in ("standard", "godunov"):
+        raise InputError(f'scheme = {scheme!r}; give "standard" or "godunov"')
+    if scheme == "standard":
+        return scene
+    terms = tuple(translated(term, numbers) for term in scene.terms if not isinstance(term, DISSIPATION))
+    field = any(isinstance(term, Stress) for term in scene.terms) and not isinstance(scene.eos, Radiating)
+    density = replace(scene.density, slope=slope)
+    return scene.but(terms=terms, density=density, stepper=TimeCentred(), energy=Dual() if field else Thermal())
+
+
+def translated(term, numbers: dict):
+    """What takes the place of a term of the standard scheme."""
+    if isinstance(term, Pressure):
+        return GodunovHydro(**numbers)
+    if isinstance(term, Stress):
+        return GodunovMHD(**numbers)
+    if isinstance(term, Hyperbolic):
+        return term if isinstance(term, ConstantCleaning) else ConstantCleaning(f_clean=max(1.0, term.f_clean))
+    return term

@@ -1,0 +1,68 @@
+"""What both Godunov terms share: their numbers, what they replace, and the law of the waves that the gas has."""
+
+from dataclasses import dataclass, replace
+
+from ..eos import Adiabatic, Radiating
+from ..errors import InputError
+from ..godunov.limiter import LIMITERS
+from ..runtime import ti
+from .base import Term
+from .held import free
+
+
+@dataclass(frozen=True)
+class Godunov(Term):
+    """The gas between a pair of particles is a Riemann problem: its star state pushes both, and heats what shocks heat.
+
+    order: 1 or 2. limiter: "II11", "minmod" or "none". C_shock: pairs that approach faster than c/C_shock are treated
+    to first order. law, gamma, dim: known when the scene is; leave them out.
+    """
+
+    order: int = 2
+    limiter: str = "II11"
+    C_shock: float = 3.0
+    law: object = None
+    dim: int = 0
+    live = {"C_shock": (0.5, 10.0)}
+    centred = True
+    rank = 1  # when all other forces are summed
+
+    def __post_init__(self):
+        name = type(self).__name__
+        if self.order not in (1, 2):
+            raise InputError(f"{name}: order = {self.order!r}; give 1 or 2")
+        if self.limiter not in LIMITERS:
+            raise InputError(f"{name}: limiter = {self.limiter!r}; give one of {', '.join(LIMITERS)}")
+        if not 0 <= self.C_shock <= 1e6:
+            raise InputError(f"{name}: C_shock = {self.C_shock} must lie in 0..1e6; 3 is usual")
+
+    @classmethod
+    def title(cls) -> str:
+        """The name a scene knows it by."""
+        return next(kind.__name__ for kind in cls.__mro__ if "orders" in kind.__dict__)
+
+    def __str__(self) -> str:
+        return f'{self.title()}(order={self.order}, limiter="{self.limiter}", C_shock={self.C_shock:g})'
+
+    def among(self, parts: tuple) -> "Godunov":
+        """The class that does what `order` says, with the waves of the scene's gas."""
+        for part in parts:
+            if isinstance(part, Term) and part is not self and type(part).__name__ not in self.beside:
+                name = type(part).__name__
+                raise InputError(f"terms: {self.title()} contains what {name} does, or cannot work with it; leave out {name}")
+        eos = next(part for part in parts if isinstance(part, Adiabatic | Radiating))
+        made = self.orders()[self.order](self.order, self.limiter, self.C_shock)
+        return replace(made, law=self.waves(eos))
+
+    def at(self, dim: int) -> "Godunov":
+        return replace(self, dim=dim)
+
+    @ti.func
+    def speed(self, i, j, w, now):
+        """The faster signal, and how fast the two approach."""
+        return ti.max(i.vw, j.vw) - ti.min((self.velocity(i) - self.velocity(j)).dot(w.e), 0.0)
+
+    @ti.func
+    def gain(self, i, total, now):
+        """What the velocity gains up to the middle of the step; nothing where frozen ends hold the particle."""
+        return 0.5 * now.dt * free(i) * (total.v + total.push)
