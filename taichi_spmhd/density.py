@@ -36,7 +36,7 @@ class Summation(Choice):
         if not 1e-14 <= self.tolerance <= 0.01:
             raise InputError(f"{name}: tolerance = {self.tolerance} must lie in 1e-14..1e-2; 1e-4 is usual")
         if self.slope not in SLOPES:
-            raise InputError(f'{name}: slope = {self.slope!r}; give one of {", ".join(SLOPES)}')
+            raise InputError(f"{name}: slope = {self.slope!r}; give one of {', '.join(SLOPES)}")
 
     @ti.func
     def omega(self, Omega):

@@ -104,7 +104,9 @@ def named(vector: "Vector3") -> "Vector3":
 
 def struct_of(rows: dict):
     """A struct from {name: its number, or a list of the components of a vector}."""
-    return ti.Struct({name: ti.lang.matrix.make_matrix(row) if isinstance(row, list) else row for name, row in rows.items()})
+    return ti.Struct(
+        {name: ti.lang.matrix.make_matrix(row) if isinstance(row, list) else row for name, row in rows.items()}
+    )
 
 
 class Record:

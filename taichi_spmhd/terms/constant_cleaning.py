@@ -129,7 +129,7 @@ class CentredCleaning(ConstantCleaning):
     def __post_init__(self):
         super().__post_init__()
         if self.frame != "flow" or not self.scaled:
-            raise InputError('ConstantCleaning: with Godunov's scheme frame="flow" and scaled=True only; leave them out')
+            raise InputError('ConstantCleaning: GodunovMHD needs frame="flow" and scaled=True; leave them out')
 
     @ti.func
     def gather(self, i, j, w):

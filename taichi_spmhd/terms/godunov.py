@@ -49,7 +49,9 @@ class Godunov(Term):
         for part in parts:
             if isinstance(part, Term) and part is not self and type(part).__name__ not in self.beside:
                 name = type(part).__name__
-                raise InputError(f"terms: {self.title()} contains what {name} does, or cannot work with it; leave out {name}")
+                raise InputError(
+                    f"terms: {self.title()} contains what {name} does, or cannot work with it; leave out {name}"
+                )
         eos = next(part for part in parts if isinstance(part, Adiabatic | Radiating))
         made = self.orders()[self.order](self.order, self.limiter, self.C_shock)
         return replace(made, law=self.waves(eos))
