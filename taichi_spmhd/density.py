@@ -11,7 +11,6 @@ from .errors import InputError
 from .runtime import ti
 from .terms.base import Choice
 
-
 SLOPES = ("variational", "own", "mean")
 
 

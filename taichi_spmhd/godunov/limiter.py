@@ -9,9 +9,9 @@ from ..runtime import ti
 
 @ti.func
 def iwasaki_inutsuka(slope, jump):
-    """sgn(df) min( 2 |df|, |D|, 2 |2 D - df| ) where df, D and 2 D - df agree in sign, else 0   (Iwasaki & Inutsuka 2011)
+    """sgn(df) min( 2 |df|, |D|, 2 |2 D - df| ) where df, D and 2 D - df agree in sign, else 0
 
-    2 D - df is the difference to the virtual particle on the other side.
+    Iwasaki & Inutsuka 2011. 2 D - df is the difference to the virtual particle on the other side.
     """
     size = ti.abs(jump)
     along = ti.select(jump < 0.0, -slope, slope)

@@ -93,6 +93,5 @@ class Slopes:
 
     @ti.func
     def moderate(self, closing):
-        """Whether P and rho keep more than a third of themselves, and less than three times: P changes by gamma times."""
-        change = self.law.law.gamma * closing
-        return ti.abs(change) < 0.7
+        """Whether the predicted P and rho keep more than 0.3 of themselves: P changes gamma times as much as rho."""
+        return self.law.law.gamma * ti.abs(closing) < 0.7
