@@ -22,7 +22,7 @@ class Summation(Choice):
     rho is that of the relation between h and rho, which the sum equals to the same accuracy.
 
     slope: which slope of the kernel weighs a pair. "variational" (the default): Gi at h_i, Gj at h_j, each with its
-    Omega. "own": the same without Omega; "mean": both at (h_i + h_j)/2, without Omega, one kernel a pair instead of
+    Omega. "own": the same without Omega; "mean": both at the mean of 1/h, without Omega, one kernel a pair instead of
     two. Godunov's scheme needs no variation and is more accurate without Omega (Iwasaki & Inutsuka 2011): with "mean"
     in turbulence, with "own" where strong shocks squeeze the gas along one line (docs/physics.md).
     """
@@ -38,9 +38,14 @@ class Summation(Choice):
             raise InputError(f"{name}: slope = {self.slope!r}; give one of {', '.join(SLOPES)}")
 
     @ti.func
-    def omega(self, Omega):
-        """Omega as far as pairs are weighed with it."""
-        return Omega if ti.static(self.slope == "variational") else 1.0
+    def g(self, slope, Omega, rho):
+        """The member g, what a particle has to the slopes of its pairs; slope = sigma/h^(d+1)."""
+        if ti.static(self.slope == "mean"):
+            return 1.0 / (rho * rho)
+        elif ti.static(self.slope == "own"):
+            return slope / (rho * rho)
+        else:
+            return slope / (Omega * rho * rho)
 
     @ti.func
     def weights(self, i, j, d, kernel: ti.template()):
@@ -56,18 +61,20 @@ class Summation(Choice):
     def slopes(self, i, j, r, kernel: ti.template()):
         """What the masses are multiplied with: W' over (Omega) rho^2 of i and of j."""
         if ti.static(self.slope == "mean"):
-            inverse = 2.0 / (i.h + j.h)
-            slope = ti.static(kernel.sigma) * inverse ** ti.static(kernel.dim + 1) * kernel.df(r * inverse)
-            return slope / (i.rho * i.rho), slope / (j.rho * j.rho)
+            slope = self.at(r, 0.5 * (i.hinv + j.hinv), kernel)
+            return i.g * slope, j.g * slope
         else:
             return i.g * kernel.df(r * i.hinv), j.g * kernel.df(r * j.hinv)
 
     @ti.func
+    def at(self, r, hinv, kernel: ti.template()):
+        """W'(r, h)"""
+        return ti.static(kernel.sigma) * hinv ** ti.static(kernel.dim + 1) * kernel.df(r * hinv)
+
+    @ti.func
     def F(self, i, j, w, kernel: ti.template()):
         """m_j ( W'(r, h_i) + W'(r, h_j) )/2, without Omega: for pairs that are weighed by a mean density."""
-        at_i = i.g * i.rho * i.rho * self.omega(i.Omega) * kernel.df(w.r * i.hinv)
-        at_j = j.g * j.rho * j.rho * self.omega(j.Omega) * kernel.df(w.r * j.hinv)
-        return 0.5 * j.m * (at_i + at_j)
+        return 0.5 * j.m * (self.at(w.r, i.hinv, kernel) + self.at(w.r, j.hinv, kernel))
 
     @ti.func
     def Di(self, i, j, w, kernel: ti.template()):

@@ -80,7 +80,7 @@ class Density:
         Omega = 1.0 - slope / (self.dim * total)
         self.p.state[n].h, self.p.state[n].hinv = h, hinv
         self.p.state[n].rho, self.p.state[n].Omega = rho, Omega
-        self.p.state[n].g = norm * hinv / (self.choice.omega(Omega) * rho * rho)
+        self.p.state[n].g = self.choice.g(norm * hinv, Omega, rho)
 
     @ti.func
     def shrunk(self, i, h):

@@ -33,16 +33,20 @@ class Hugoniot:
         return s.rho * (self.gamma * s.P + (1.0 - 0.5 * self.gamma) * s.b2)
 
     @ti.func
+    def stiffness(self, s):
+        """How much M^2 rises with P*: exactly so in a gas without a field."""
+        return 0.5 * (self.gamma + 1.0) * s.rho
+
+    @ti.func
     def flux(self, s, P):
-        """M^2 at the pressure P between the waves, and its derivative."""
+        """M^2 at the pressure P between the waves, and its derivative as a fraction, numerator and denominator."""
         g = ti.static(self.gamma)
         base = (g + 1.0) * s.P + (g - 1.0) * P
         field = (g - 2.0) * s.b2
         D2 = base * base - field * ((2.0 * g - 6.0) * s.P + (2.0 * g + 6.0) * P - field)
         D = ti.sqrt(ti.max(D2, TINY * base * base))
         M2 = 0.25 * s.rho * ((g - 3.0) * s.P + (g + 3.0) * P - field + D)
-        slope = 0.25 * s.rho * (g + 3.0 + ((g - 1.0) * base - (g + 3.0) * field) / D)
-        return M2, slope
+        return M2, 0.25 * s.rho * ((g + 3.0) * D + (g - 1.0) * base - (g + 3.0) * field), D
 
 
 @dataclass(frozen=True)
@@ -65,10 +69,15 @@ class Isothermal:
         return s.rho * (s.P + 0.5 * s.b2)
 
     @ti.func
+    def stiffness(self, s):
+        """How much M^2 rises with P*: exactly so in a gas without a field."""
+        return s.rho
+
+    @ti.func
     def flux(self, s, P):
-        """M^2 at the pressure P between the waves, and its derivative."""
+        """M^2 at the pressure P between the waves, and its derivative as a fraction, numerator and denominator."""
         gas = s.P - 0.5 * s.b2
-        x = 2.0 * P / (gas + ti.sqrt(gas * gas + 2.0 * s.b2 * P))
+        root = ti.sqrt(gas * gas + 2.0 * s.b2 * P)  # = c^2 rho + b2 x
+        x = 2.0 * P / (gas + root)
         M2 = s.rho * x * (gas + 0.5 * s.b2 * (x + 1.0))
-        slope = s.rho * (gas + 0.5 * s.b2 * (2.0 * x + 1.0)) / (gas + s.b2 * x)
-        return M2, slope
+        return M2, s.rho * (gas + 0.5 * s.b2 * (2.0 * x + 1.0)), root

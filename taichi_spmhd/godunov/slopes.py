@@ -24,7 +24,12 @@ class Slopes:
 
     @property
     def gathers(self) -> dict:
-        return {**self.gradients, **{f"A{a}": vecd for a in "xyz"[: self.dim]}}
+        return {**self.gradients, **dict.fromkeys(self.entries, real)}
+
+    @property
+    def entries(self) -> dict:
+        """The entries of A, which is symmetric: {name: its row and column}."""
+        return {f"A{'xyz'[a]}{'xyz'[b]}": (a, b) for a in range(self.dim) for b in range(a, self.dim)}
 
     @property
     def makes(self) -> dict:
@@ -35,8 +40,7 @@ class Slopes:
     def gather(self, i, j, w):
         along = named(w.e * w.Gi)
         sums = {"dP": along * (j.P - i.P)}
-        for axis, letter in enumerate("xyz"[: self.dim]):
-            sums[f"A{letter}"] = along * (w.e.parts[axis] * w.r)
+        sums |= {name: along.parts[a] * (w.e.parts[b] * w.r) for name, (a, b) in self.entries.items()}
         for name in self.fields:
             apart = getattr(j, name) - getattr(i, name)
             sums |= {f"d{name}{letter}": along * part for letter, part in zip("xyz", apart.parts, strict=True)}
@@ -57,11 +61,12 @@ class Slopes:
     def matrix(self, i, sums):
         """A"""
         if ti.static(self.dim == 1):
-            return -i.rho * ti.Matrix.rows([sums.Ax])
+            return -i.rho * ti.Matrix([[sums.Axx]])
         elif ti.static(self.dim == 2):
-            return -i.rho * ti.Matrix.rows([sums.Ax, sums.Ay])
+            return -i.rho * ti.Matrix([[sums.Axx, sums.Axy], [sums.Axy, sums.Ayy]])
         else:
-            return -i.rho * ti.Matrix.rows([sums.Ax, sums.Ay, sums.Az])
+            x, y, z = [sums.Axx, sums.Axy, sums.Axz], [sums.Axy, sums.Ayy, sums.Ayz], [sums.Axz, sums.Ayz, sums.Azz]
+            return -i.rho * ti.Matrix([x, y, z])
 
     @ti.func
     def inverse(self, A):
