@@ -1,6 +1,6 @@
 """The uniform state that waves are small disturbances of: what a scene starts with, in the mean or at one spot."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -74,5 +74,6 @@ def uniform(scene: Scene, found: Background, patch: Patch) -> Scene:
     given = found.start()
     return scene.but(
         box=patch.box, positions=patch.positions, start=lambda x: given, boundary=everywhere(),
-        density=type(scene.density)(tolerance=EXACT), exact=None, reference=None, measure=None,
+        terms=tuple(term.smooth() for term in scene.terms),
+        density=replace(scene.density, tolerance=EXACT), exact=None, reference=None, measure=None,
     )  # fmt: skip

@@ -5,6 +5,7 @@ close, gather and pair loop are those of a run. With r(s) = (rates(+s) - rates(-
 what is linear stays, what is of order sqrt(s) (conduction by the pressure's jump) drops out as it does for small waves.
 A term with a kink at rest (viscosity acts on approaching pairs alone) is taken as the mean of both sides: half its
 strength on all pairs, the energy it takes from a wave. Kinks of second order (beta of the viscosity, |v x e|) vanish.
+Godunov's limiters and shock switch are off (Part.smooth), and what it predicts within a step is not there: dt is 0.
 The largest numbers of all particles (`most`) are those that the code finds.
 """
 
@@ -83,5 +84,6 @@ def unit(sim: Simulation, name: str, dx: float, speed: float) -> float:
     """What a member is measured in: spacings, the fastest speed, and what such a speed makes of the others."""
     rho = float(sim["rho"].mean())
     known = {"x": dx, "v": speed, "b": speed / np.sqrt(rho), "u": speed**2, "E": speed**2, "y": speed * np.sqrt(rho)}
+    known["u_own"] = speed**2
     known["psi"] = speed**2 * np.sqrt(rho)
     return known.get(name, 1.0)

@@ -3,6 +3,7 @@
 textbook   the conservative equations as they stand, xi = 0, cubic spline: what the cures are needed for
 usual      quintic spline, xi = 1/2, viscosity by Cullen & Dehnen, cleaning: sharp, the scenes' own
 robust     Wendland C4, xi = 1/2, viscosity everywhere, cleaning: for what nobody has tried before
+godunov    Riemann problems and characteristics in place of all viscosity, quintic spline, xi = 1/2, cleaning
 
 xi = 1/2 in both: it makes the stress along B that of the gas alone, down to the lowest beta tried. xi = 1 has a margin
 for noise, but at a free surface its force takes the field that ends there for a source and blows particles off.
@@ -13,10 +14,12 @@ from dataclasses import dataclass
 
 from ..kernels import CubicSpline, Kernel, QuinticSpline, WendlandC4
 from ..scene import Scene
+from ..schemes import with_scheme
 from ..stepper import LeapfrogKDK
 from ..terms import (
     Cleaning,
     Conductivity,
+    ConstantCleaning,
     CullenDehnen,
     DivBSource,
     Induction,
@@ -37,6 +40,7 @@ class Preset:
     kernel: Kernel
     friction: Callable[[], tuple[Term, ...]]
     cures: Callable[[], tuple[Term, ...]]
+    scheme: str = "standard"
 
     def scene(self, problem: Problem) -> Scene:
         """The scene of a problem."""
@@ -45,7 +49,7 @@ class Preset:
         replaced = {type(term).__name__ for term in problem.extra}
         kept = [t for t in terms if t in problem.extra or type(t).__name__ not in (*problem.without, *replaced)]
         given = {"kernel": self.kernel, "stepper": LeapfrogKDK(), "density": problem.density}
-        return Scene(
+        scene = Scene(
             box=problem.box,
             positions=problem.positions,
             start=problem.start,
@@ -55,6 +59,7 @@ class Preset:
             t_end=problem.t_end,
             **{**given, **problem.changes},
         )
+        return with_scheme(scene, self.scheme)
 
 
 PRESETS = {
@@ -75,5 +80,12 @@ PRESETS = {
         WendlandC4(),
         lambda: (Viscosity(), Conductivity()),
         lambda: (DivBSource(xi=0.5), Resistivity(), Cleaning()),
+    ),
+    "godunov": Preset(
+        "Riemann problems, quintic spline (h_fact 1.2), xi = 1/2, Cleaning with one c_h",
+        QuinticSpline(h_fact=1.2),
+        tuple,
+        lambda: (DivBSource(xi=0.5), ConstantCleaning()),
+        "godunov",
     ),
 }
