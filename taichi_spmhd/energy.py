@@ -92,11 +92,11 @@ class MagneticTotal(Total):
 
 @dataclass(frozen=True)
 class Dual(Total):
-    """E is evolved, and u by its own equation beside it: whichever is known better is the thermal energy
+    """E is evolved, and beside it u of gas that is only squeezed, du_i/dt = P/rho^2 drho/dt
 
-    What remains of E is taken where it is above `least` of the energy of the field, else the u that its own equation
-    gives (Bryan et al. 1995): at beta of 1e-4 the former is a small difference of large numbers. `switched` counts, for
-    each particle, the steps that ended with the latter; E is then set right and what that adds is booked in leak_E.
+    What remains of E is taken where it is above `least` of the energy of the field, else that u (Bryan et al. 1995): at
+    beta of 1e-4 the former is a small difference of large numbers, of either sign; the latter stays positive. `switched`
+    counts, for each particle, the steps that ended with it; E is then set right and what that adds is booked in leak_E.
     """
 
     centred: bool = False
@@ -142,7 +142,7 @@ class MagneticDual(MagneticTotal):
     @ti.func
     def after(self, i, total, now):
         E = self.work(i, total, now) + total.u + i.B.dot(total.b) + 0.5 * i.B.dot(i.B) * total.closing
-        return ti.Struct(E=E, u_own=total.u)
+        return ti.Struct(E=E, u_own=i.P * total.closing)
 
     @ti.func
     def settle(self, i, now):
