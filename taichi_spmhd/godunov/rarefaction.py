@@ -11,7 +11,7 @@ import numpy as np
 
 from ..runtime import ti
 from .hugoniot import Hugoniot, Isothermal
-from .riemann import FLOOR, Riemann
+from .riemann import Riemann
 
 LEAST = 0.1  # the eighth root of the smallest ratio, 1e-8, that is told from smaller ones
 DEGREE = 10
@@ -86,11 +86,10 @@ class ExactRiemann(Riemann):
     @ti.func
     def star(self, L, R):
         P, v = self.start(L, R), 0.5 * (L.v + R.v)
-        least = FLOOR * (L.P + R.P)
         for _ in ti.static(range(self.steps - EXACT)):
-            P, v = self.newton(L, R, P, least)
+            P, v = self.newton(L, R, P)
         for _ in ti.static(range(EXACT)):
-            P, v = self.better(L, R, P, least)
+            P, v = self.better(L, R, P)
         return P, v
 
     @ti.func
@@ -101,7 +100,7 @@ class ExactRiemann(Riemann):
         return ti.select(P < s.P, fan, shock), ti.select(P < s.P, dfan, dshock)
 
     @ti.func
-    def better(self, L, R, P, least):
+    def better(self, L, R, P):
         """A step of Newton's method with rarefactions."""
         left, right = self.either(L, P), self.either(R, P)
-        return self.moved(L, R, P, least, left, right)
+        return self.moved(L, R, P, left, right)
