@@ -126,7 +126,7 @@ def test_weak_waves_are_fast_waves(law):
     M2, _, acoustic = fluxes(law, sides, sides[:, 1]).T
     rho, Pt, b2, _ = sides.T
     assert acoustic == pytest.approx(rho * (law.gamma * (Pt - 0.5 * b2) + b2), rel=1e-13)  # (rho c_f)^2
-    assert M2 == pytest.approx(acoustic, rel=1e-11)  # measured 4e-13
+    assert acoustic == pytest.approx(M2, rel=1e-11)  # measured 4e-13
 
 
 def compression(rho, P, b2, gamma, after, steps=200):
@@ -204,7 +204,7 @@ def test_extreme_pairs_have_a_positive_pressure(name):
     L, R = collisions(field="fans" not in name)
     P, v = stars(SOLVERS[name], L, R).T
     assert np.isfinite(P).all() and np.isfinite(v).all()
-    assert (P >= 0.999 * KEPT**STEPS * 0.5 * (L[:, 1] + R[:, 1])).all()
+    assert (P / (L[:, 1] + R[:, 1]) >= 0.499 * KEPT**STEPS).all()
     parting, most = R[:, 3] > 0, np.maximum(L[:, 1], R[:, 1])
     assert (P[parting] < most[parting] * (1 + 1e-9)).all()
     assert (P[~parting] > np.minimum(L[:, 1], R[:, 1])[~parting] * (1 - 1e-9)).all()
@@ -296,7 +296,7 @@ def test_four_steps_are_enough_in_a_collision(name):
 def test_equal_sides_are_their_own_star_state():
     sides = drawn()
     P, v = stars(SOLVERS["adiabatic"], sides, sides).T
-    assert P == pytest.approx(sides[:, 1], rel=1e-13)
+    assert sides[:, 1] == pytest.approx(P, rel=1e-13)
     assert v == pytest.approx(sides[:, 3], rel=1e-13)
 
 
