@@ -39,6 +39,7 @@ class Radiating(Choice):
     """
 
     evolves, sums = {"leak_E": real}, {"u": real, "closing": real}
+    rank = 2  # when all heat is known: Godunov's terms state theirs once the forces are summed
 
     @ti.func
     def after(self, i, total, now):

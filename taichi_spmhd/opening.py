@@ -5,11 +5,15 @@ from .runtime import ti
 
 @ti.data_oriented
 class Opening:
-    """Runs `open` and then `close` of some parts, by rank: each part's own members are there for those after it."""
+    """Runs `open` and then `close` of some parts, in the order of needs; those of higher rank open later.
+
+    Each part's own members are there for those after it.
+    """
 
     def __init__(self, particles, parts: tuple):
         parts = (part for part in parts if part.has("open") or part.has("close"))
-        self.p, self.parts = particles, tuple(sorted(parts, key=lambda part: part.rank))
+        self.p = particles
+        self.parts = tuple(sorted(parts, key=lambda part: part.rank if part.has("open") else 0))
 
     @ti.func
     def apply(self, n, part: ti.template()):

@@ -21,8 +21,13 @@ def across(e):
 
 @traced
 def turned(e):
-    """The two of a frame in 3-D, without a branch (Duff et al. 2017)."""
-    side = ti.lang.impl.expr_init(ti.select(e.z < 0.0, -1.0, 1.0))
+    """The two of a frame in 3-D, without a branch (Duff et al. 2017).
+
+    The sides of e.z < 0 and > 0 differ. Where e.z = 0, as in a lattice, e.y decides: e and -e on one side would have
+    frames turned against each other.
+    """
+    flat = ti.select(e.y < 0.0, -1.0, 1.0)
+    side = ti.lang.impl.expr_init(ti.select(e.z < 0.0, -1.0, ti.select(e.z > 0.0, 1.0, flat)))
     a = ti.lang.impl.expr_init(-1.0 / (side + e.z))
     b = ti.lang.impl.expr_init(e.x * e.y * a)
     first = Vector3((side * e.x * e.x * a + 1.0, side * b, -1.0 * side * e.x))

@@ -14,7 +14,7 @@ from ..errors import InputError
 from ..runtime import ti
 
 STEPS = 1
-FALL = 0.05  # of the pressure that a step may leave: from far above a step leads below zero
+KEPT = 0.05  # of P by a step at least: from far above it would lead below zero
 SMALL = 1e-12
 
 
@@ -44,7 +44,7 @@ class Riemann:
         y = (L.v - R.v) * (M_L * M_R * A_L * A_R * share)
         b = (B_L * M_R * A_R + B_R * M_L * A_L) * share
         k = ti.max(1.0 + b * (Q - mean), 0.1)
-        return ti.max(Q + 0.5 * (b * y * y + y * ti.sqrt(b * b * y * y + 4.0 * k)), FALL * mean)
+        return ti.max(Q + 0.5 * (b * y * y + y * ti.sqrt(b * b * y * y + 4.0 * k)), KEPT * mean)
 
     @ti.func
     def shock(self, s, P, M, slope):
@@ -78,7 +78,7 @@ class Riemann:
         f, f1 = left[0] + right[0] + R.v - L.v, left[1] + right[1]
         f2, f3 = left[2] + right[2], left[3] + right[3]
         move = -3.0 * f * (2.0 * f1 * f1 - f * f2) / (6.0 * f1 * (f1 * f1 - f * f2) + f * f * f3)
-        new = ti.max(P + move, FALL * P)
+        new = ti.max(P + move, KEPT * P)
         return new, 0.5 * (L.v + R.v + self.expanded(right, new - P) - self.expanded(left, new - P))
 
     @ti.func
