@@ -153,7 +153,9 @@ class RHS(Fused):
 
     @ti.func
     def heat_step(self, i, total):
-        if ti.static("u" in self.totals and "u" in self.p.members):
+        if ti.static("u_own" in self.totals):  # what squeezes the gas; that which remains of E may be noise
+            return self.stepper.cool * i.u / (ti.max(-total.u_own, 0.0) + TINY)
+        elif ti.static("u" in self.totals and "u" in self.p.members):
             return self.stepper.cool * i.u / (ti.max(-total.u, 0.0) + TINY)
         else:
             return ti.cast(1e30, float)
