@@ -18,13 +18,28 @@ from taichi_spmhd import (
     RunError,
     Scene,
     Simulation,
+    SumMass,
+    SumVolume,
     Term,
+    TimeCentred,
     jitter,
     line,
     square,
 )
 from taichi_spmhd.runtime import ti
-from taichi_spmhd.terms import CullenDehnen, Induction, Pressure, Resistivity, Stress, Viscosity
+from taichi_spmhd.terms import (
+    Cleaning,
+    ConstantCleaning,
+    CullenDehnen,
+    DivBSource,
+    GodunovHydro,
+    GodunovMHD,
+    Induction,
+    Pressure,
+    Resistivity,
+    Stress,
+    Viscosity,
+)
 from taichi_spmhd.types import vec3
 
 BOX = (1.0, 1.0)
@@ -159,6 +174,40 @@ REFUSED = {
         lambda: Simulation(gas(positions=square(BOX, 12) - [0.3, 0], boundary=Boundary(x=Reflecting(), y=Periodic()))),
         "behind a reflecting wall",
     ),
+}
+
+
+def godunov(*terms) -> Scene:
+    """A gas with these terms and the stepper that Godunov's scheme needs."""
+    return gas(terms=terms, stepper=TimeCentred())
+
+
+MHD = (GodunovMHD(), Induction())
+REFUSED |= {
+    "a third order": (lambda: GodunovHydro(order=3), "order = 3; give 1 or 2"),
+    "an unknown limiter": (lambda: GodunovMHD(limiter="superbee"), "give one of II11, minmod, none"),
+    "a shock switch below 0": (lambda: GodunovMHD(C_shock=-1.0), "C_shock = -1"),
+    "a shock switch that is no number": (lambda: GodunovHydro(C_shock=float("nan")), "C_shock = nan"),
+    "an unknown slope": (lambda: SumMass(slope="median"), "give one of variational, own, mean"),
+    "an unknown slope of volumes": (lambda: SumVolume(slope="median"), "give one of variational, own, mean"),
+    "riemann problems with viscosity": (lambda: godunov(*MHD, Viscosity()), "leave out Viscosity"),
+    "riemann problems with stress": (lambda: godunov(*MHD, Stress()), "leave out Stress"),
+    "riemann problems with a speed of cleaning each": (lambda: godunov(*MHD, Cleaning()), "leave out Cleaning"),
+    "riemann problems with pressure": (lambda: godunov(GodunovHydro(), Pressure()), "leave out Pressure"),
+    "a field in a gas without one": (lambda: godunov(GodunovHydro(), DivBSource()), "leave out DivBSource"),
+    "riemann problems in a leapfrog": (lambda: gas(terms=(GodunovHydro(),)), r"give stepper=TimeCentred\(\)"),
+    "riemann problems in two stages": (lambda: gas(terms=MHD, stepper=Heun()), r"GodunovMHD .* give stepper=TimeCentr"),
+    "centred steps of other terms": (lambda: godunov(Stress(), Induction()), "TimeCentred is for GodunovHydro and"),
+    "psi that stays in centred steps": (
+        lambda: godunov(*MHD, ConstantCleaning(frame="eulerian")),
+        'ConstantCleaning: GodunovMHD needs frame="flow"',
+    ),
+    "psi that is not scaled in centred steps": (
+        lambda: godunov(*MHD, ConstantCleaning(scaled=False)),
+        "ConstantCleaning: GodunovMHD needs .* scaled=True",
+    ),
+    "riemann problems of a field that nothing evolves": (lambda: godunov(GodunovMHD()), r"list Induction\(\)"),
+    "riemann problems with the other form": (lambda: godunov(GodunovMHD(), Induction(form="B")), 'leave out form="B"'),
 }
 
 
