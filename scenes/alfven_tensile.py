@@ -10,7 +10,19 @@ wave has no shocks: a weak viscosity is enough. It costs about 10 s on two cores
 
 import numpy as np
 
-from taichi_spmhd import Adiabatic, Anchor, Picture, Scene, Study, exact, hexagonal, jitter
+from taichi_spmhd import (
+    Adiabatic,
+    Anchor,
+    Picture,
+    QuinticSpline,
+    Scene,
+    Scheme,
+    Study,
+    exact,
+    hexagonal,
+    in_scheme,
+    jitter,
+)
 from taichi_spmhd.terms import DivBSource, Induction, Resistivity, Stress, Viscosity
 
 ANGLE = np.radians(30)  # wave vector and mean field against the x axis
@@ -46,7 +58,7 @@ STUDY = Study(
 )
 
 
-def scenes(nx: int = 32, beta: float = 0.2, amplitude: float = 0.1, t_end: float = 1.0):
+def scenes(nx: int = 32, beta: float = 0.2, amplitude: float = 0.1, t_end: float = 1.0, scheme: Scheme = "standard"):
     """The same wave, without and with the remedy. beta = 2P/B^2 of the mean field."""
 
     def wave(x, t):
@@ -66,8 +78,9 @@ def scenes(nx: int = 32, beta: float = 0.2, amplitude: float = 0.1, t_end: float
         measure="B_z",
         picture=Picture("B", axis=2, limits=(-colours, colours), draw="particles", gaps=True),
     )
-    return {
+    variants = {
         "xi = 0": bare,
         "xi = 1/2": bare.plus(DivBSource(xi=0.5)),
         "xi = 1": bare.plus(DivBSource(xi=1.0)),
     }
+    return in_scheme(variants, scheme, kernel=QuinticSpline())

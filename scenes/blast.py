@@ -9,7 +9,7 @@ s on two cores.
 
 import numpy as np
 
-from taichi_spmhd import Adiabatic, Picture, Scene, hexagonal
+from taichi_spmhd import Adiabatic, Picture, QuinticSpline, Scene, Scheme, hexagonal, in_scheme
 from taichi_spmhd.terms import Conductivity, Pressure, Viscosity
 
 BOX = ((-0.5, 0.5), (-0.5, 0.5))
@@ -21,7 +21,7 @@ def start(x):
     return {"rho": 1.0, "P": np.where((x**2).sum(axis=1) < RADIUS**2, P_IN, P_OUT)}
 
 
-def scenes(nx: int = 128, t_end: float = 0.2):
+def scenes(nx: int = 128, t_end: float = 0.2, scheme: Scheme = "standard"):
     """The blast with artificial viscosity and conductivity."""
     scene = Scene(
         box=BOX,
@@ -32,4 +32,4 @@ def scenes(nx: int = 128, t_end: float = 0.2):
         t_end=t_end,
         picture=Picture("rho", limits=(0.0, 3.0), draw="sph"),
     )
-    return {"blast": scene}
+    return in_scheme({"blast": scene}, scheme, kernel=QuinticSpline(h_fact=1.2))

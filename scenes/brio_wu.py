@@ -13,7 +13,18 @@ from typing import Literal
 
 import numpy as np
 
-from taichi_spmhd import Adiabatic, Boundary, Frozen, Periodic, Picture, QuinticSpline, Scene, step_lattice
+from taichi_spmhd import (
+    Adiabatic,
+    Boundary,
+    Frozen,
+    Periodic,
+    Picture,
+    QuinticSpline,
+    Scene,
+    Scheme,
+    in_scheme,
+    step_lattice,
+)
 from taichi_spmhd.terms import Cleaning, Conductivity, DivBSource, Induction, Resistivity, Stress, Viscosity
 
 LEFT, RIGHT = (1.0, 1.0, 1.0), (0.125, 0.1, -1.0)  # rho, P, B_y
@@ -29,7 +40,10 @@ LIMITS = {
 }
 
 
-def scenes(nx: int = 800, dim: Literal[1, 2] = 1, xi: float = 0.5, show: Literal[tuple(LIMITS)] = "rho"):
+def scenes(
+    nx: int = 800, dim: Literal[1, 2] = 1, xi: float = 0.5, show: Literal[tuple(LIMITS)] = "rho",
+    scheme: Scheme = "standard",
+):  # fmt: skip
     """nx: particles along x, both sides together; show: what is drawn."""
     lattice = step_lattice((-0.5 - END, 0.5 + END), nx, (LEFT[0], RIGHT[0]), rows=ROWS if dim == 2 else None)
 
@@ -50,4 +64,5 @@ def scenes(nx: int = 800, dim: Literal[1, 2] = 1, xi: float = 0.5, show: Literal
         t_end=0.1,
         picture=Picture(member, axis="xyz".index(axis) if axis else None, limits=LIMITS[show]),
     )
-    return {"without cleaning": bare, "with cleaning": bare.plus(Cleaning())}
+    variants = {"without cleaning": bare, "with cleaning": bare.plus(Cleaning())}
+    return in_scheme(variants, scheme, slope="own")

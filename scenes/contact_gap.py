@@ -11,7 +11,18 @@ the gas is stirred. It costs about 20 s on two cores.
 
 import numpy as np
 
-from taichi_spmhd import InputError, Picture, Scene, SumMass, SumVolume, WendlandC4, hexagonal, jitter
+from taichi_spmhd import (
+    InputError,
+    Picture,
+    Scene,
+    Scheme,
+    SumMass,
+    SumVolume,
+    WendlandC4,
+    hexagonal,
+    in_scheme,
+    jitter,
+)
 from taichi_spmhd.terms import Pressure, Viscosity
 
 BOX = (1.0, 0.25)
@@ -19,7 +30,7 @@ GAMMA, P, FLIGHT = 5 / 3, 1.0, (1.0, 0.5, 0.0)
 NOISE = 0.1  # of the positions, in spacings: a perfect lattice at rest proves nothing
 
 
-def scenes(nx: int = 64, ratio: float = 4.0, t_end: float = 2.0, seed: int = 0):
+def scenes(nx: int = 64, ratio: float = 4.0, t_end: float = 2.0, seed: int = 0, scheme: Scheme = "standard"):
     """ratio: of the densities and of the masses."""
     if not 1 <= ratio <= 1000:
         raise InputError(f"ratio = {ratio} must lie in 1..1000: how much denser the gas in the middle is")
@@ -38,4 +49,5 @@ def scenes(nx: int = 64, ratio: float = 4.0, t_end: float = 2.0, seed: int = 0):
         t_end=t_end,
         picture=Picture("rho", limits=(0.5, 1.25 * ratio), colours="cool", width=1000),
     )
-    return {"density by mass": by_mass, "density by volume": by_mass.but(density=SumVolume())}
+    variants = {"density by mass": by_mass, "density by volume": by_mass.but(density=SumVolume())}
+    return in_scheme(variants, scheme)

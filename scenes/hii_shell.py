@@ -23,10 +23,12 @@ from taichi_spmhd import (
     Picture,
     Reflecting,
     Scene,
+    Scheme,
     SumMass,
     SumVolume,
     exact,
     hexagonal,
+    in_scheme,
     line,
 )
 from taichi_spmhd.box import as_box
@@ -39,7 +41,10 @@ ROWS = 12  # of the strip: two supports of the expanded hot gas must fit
 FINER = {1: 50, 2: 1}
 
 
-def scenes(nx: int = 48, finer: int = 0, c_hot: float = 5.0, dim: Literal[1, 2] = 1, t_end: float = 0.5):
+def scenes(
+    nx: int = 48, finer: int = 0, c_hot: float = 5.0, dim: Literal[1, 2] = 1, t_end: float = 0.5,
+    scheme: Scheme = "standard",
+):  # fmt: skip
     """nx: cold particles along the whole length. finer: how many times closer the hot ones stand at the start.
 
     The shell is compressed P/0.01 times and the hot gas expands: with finer = 100 the spacings on both sides of the
@@ -73,7 +78,8 @@ def scenes(nx: int = 48, finer: int = 0, c_hot: float = 5.0, dim: Literal[1, 2] 
         measure="P",
         picture=Picture("P", limits=(0.008, 2.0), log=True),
     )
-    return {
+    variants = {
         "density by volume": by_volume,
-        "density by mass": by_volume.but(density=SumMass(), stepper=Heun()),
-    }  # less is lost
+        "density by mass": by_volume.but(density=SumMass(), stepper=Heun()),  # less is lost
+    }
+    return in_scheme(variants, scheme)

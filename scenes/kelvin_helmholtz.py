@@ -10,7 +10,7 @@ v_A >= dv/2, stiffens the layer, and the wave only swings (Chandrasekhar 1961). 
 
 import numpy as np
 
-from taichi_spmhd import Adiabatic, InputError, Picture, QuinticSpline, Scene, displaced, hexagonal
+from taichi_spmhd import Adiabatic, InputError, Picture, QuinticSpline, Scene, Scheme, displaced, hexagonal, in_scheme
 from taichi_spmhd.terms import Conductivity, CullenDehnen, DivBSource, Induction, Pressure, Resistivity, Stress
 
 BOX = (1.0, 1.0)
@@ -25,7 +25,7 @@ def band(y):
 
 def scenes(
     nx: int = 100, contrast: float = 2.0, amplitude: float = 0.1, weak: float = 0.2, strong: float = 0.8,
-    t_end: float = 2.0,
+    t_end: float = 2.0, scheme: Scheme = "standard",
 ):  # fmt: skip
     """Without a field, with a weak and with a strong one. contrast: density of the band against the gas outside."""
     if not contrast > 0:
@@ -54,4 +54,5 @@ def scenes(
             picture=Picture("rho", limits=(0.9, 2.1), draw="sph"),
         )
 
-    return {f"B = {B0:g}": scene(B0) for B0 in (0, weak, strong)}
+    variants = {f"B = {B0:g}": scene(B0) for B0 in (0, weak, strong)}
+    return in_scheme(variants, scheme, kernel=QuinticSpline(h_fact=1.2))

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from taichi_spmhd import Adiabatic, CubicSpline, Picture, Scene, Study, square
+from taichi_spmhd import Adiabatic, CubicSpline, Picture, QuinticSpline, Scene, Scheme, Study, in_scheme, square
 from taichi_spmhd.terms import (
     Cleaning,
     Conductivity,
@@ -40,7 +40,7 @@ def start(x):
     return {"rho": RHO, "P": P, "v": v, "B": B}
 
 
-def scenes(nx: int = 128, t_end: float = 0.5, f_clean: float = 1.0):
+def scenes(nx: int = 128, t_end: float = 0.5, f_clean: float = 1.0, scheme: Scheme = "standard"):
     """Without and with each hyperbolic divergence cleaning. f_clean: how much faster it is, and the step shorter."""
     bare = Scene(
         box=BOX,
@@ -53,9 +53,10 @@ def scenes(nx: int = 128, t_end: float = 0.5, f_clean: float = 1.0):
         picture=Picture("rho", limits=(0.08, 0.5), draw="sph"),
         reference=REFERENCE,
     )
-    return {
+    variants = {
         "without cleaning": bare,
         "constant c_h": bare.plus(ConstantCleaning(f_clean=f_clean)),
         "Tricco & Price 2012": bare.plus(TriccoPrice2012(f_clean=f_clean)),
         "with cleaning": bare.plus(Cleaning(f_clean=f_clean)),
     }
+    return in_scheme(variants, scheme, kernel=QuinticSpline(h_fact=1.2))

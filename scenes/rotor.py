@@ -11,7 +11,7 @@ is resolved three times better than the gas around it. It costs about 100 s on t
 
 import numpy as np
 
-from taichi_spmhd import Adiabatic, Box, Picture, QuinticSpline, Scene, hexagonal
+from taichi_spmhd import Adiabatic, Box, Picture, QuinticSpline, Scene, Scheme, hexagonal, in_scheme
 from taichi_spmhd.lattice import even, staggered
 from taichi_spmhd.terms import Cleaning, Conductivity, CullenDehnen, DivBSource, Induction, Resistivity, Stress
 
@@ -72,7 +72,7 @@ def ring(radius: float, n: int, k: int) -> np.ndarray:
     return radius * np.stack([np.cos(angle), np.sin(angle)], axis=1)
 
 
-def scenes(nx: int = 100, t_end: float = 0.15):
+def scenes(nx: int = 100, t_end: float = 0.15, scheme: Scheme = "standard"):
     """Without and with hyperbolic divergence cleaning. nx: particles along x of the gas outside."""
     x, mass = positions(nx)
     bare = Scene(
@@ -85,4 +85,5 @@ def scenes(nx: int = 100, t_end: float = 0.15):
         t_end=t_end,
         picture=Picture("B", limits=(0.0, 2.4), draw="sph"),
     )
-    return {"without cleaning": bare, "with cleaning": bare.plus(Cleaning())}
+    variants = {"without cleaning": bare, "with cleaning": bare.plus(Cleaning())}
+    return in_scheme(variants, scheme, kernel=QuinticSpline(h_fact=1.2))

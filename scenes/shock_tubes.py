@@ -27,8 +27,10 @@ from taichi_spmhd import (
     Picture,
     QuinticSpline,
     Scene,
+    Scheme,
     Study,
     exact,
+    in_scheme,
     step_lattice,
 )
 from taichi_spmhd.terms import (
@@ -60,6 +62,7 @@ def scenes(
     xi: float = 0.5,
     f_clean: float = 1.0,
     show: Literal["rho", "P", "v_x", "v_y", "v_z", "B_x", "B_y", "B_z"] = "v_y",
+    scheme: Scheme = "standard",
 ):
     """nx: particles along x, both sides together; f_clean: how much faster cleaning is; show: what is drawn."""
     known = exact.TUBES[tube]
@@ -85,7 +88,7 @@ def scenes(
         measure="rho",
         picture=picture(known, show),
     )
-    return variants(bare, f_clean)
+    return in_scheme(variants(bare, f_clean), scheme, slope="own")
 
 
 def variants(bare: Scene, f_clean: float) -> dict:

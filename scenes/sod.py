@@ -19,8 +19,10 @@ from taichi_spmhd import (
     Picture,
     QuinticSpline,
     Scene,
+    Scheme,
     Study,
     exact,
+    in_scheme,
     step_lattice,
 )
 from taichi_spmhd.terms import Conductivity, Pressure, Viscosity
@@ -31,7 +33,7 @@ SUPPORTS = 4  # thickness of the frozen ends in supports of the thin side
 STUDY = Study({"nx": (225, 450, 900, 1800), "kernel": ("cubic", "quintic", "wendland_c4")})  # for `spmhd cost`
 
 
-def scenes(nx: int = 450, dim: Literal[1, 2] = 1, t_end: float = 0.2):
+def scenes(nx: int = 450, dim: Literal[1, 2] = 1, t_end: float = 0.2, scheme: Scheme = "standard"):
     """nx: particles along x, both sides together."""
     lattice = step_lattice((-0.5, 0.5), nx, (LEFT[0], RIGHT[0]), rows=None if dim == 1 else ROWS)
     kernel = QuinticSpline()
@@ -59,4 +61,4 @@ def scenes(nx: int = 450, dim: Literal[1, 2] = 1, t_end: float = 0.2):
         measure="rho",
         picture=Picture("rho", limits=(0.0, 1.1)),
     )
-    return {"sod": scene}
+    return in_scheme({"sod": scene}, scheme, slope="own")

@@ -11,7 +11,18 @@ xi = 0 survive. It costs about 10 s on two cores.
 
 from math import sqrt
 
-from taichi_spmhd import Adiabatic, InputError, Picture, QuinticSpline, Scene, Study, exact, hexagonal
+from taichi_spmhd import (
+    Adiabatic,
+    InputError,
+    Picture,
+    QuinticSpline,
+    Scene,
+    Scheme,
+    Study,
+    exact,
+    hexagonal,
+    in_scheme,
+)
 from taichi_spmhd.terms import DivBSource, Induction, Stress, Viscosity
 
 HALF, ROWS = 4.0, 20  # half the length of the box; rows across, room for the kernels of clumped gas
@@ -32,6 +43,7 @@ def scenes(
     width: float = 3.0,
     length: float = 0.0,
     t_end: float = 0.6,
+    scheme: Scheme = "standard",
 ):
     """amplitude: of the pulse in v_x; width: exp(-(x/w)^2), w in smoothing lengths; beta = 2P/B^2; length: w itself,
     where it is to stay the same at every nx (0: take width)."""
@@ -60,8 +72,9 @@ def scenes(
         measure="v_x",
         picture=Picture("v", axis=0, limits=(-0.6 * colours, 1.1 * colours)),
     )
-    return {
+    variants = {
         "xi = 0": bare.plus(Viscosity()),
         "xi = 1/2": bare.plus(DivBSource(xi=0.5)),
         "xi = 1": bare.plus(DivBSource(xi=1.0)),
     }
+    return in_scheme(variants, scheme)
