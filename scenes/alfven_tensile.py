@@ -83,4 +83,4 @@ def scenes(nx: int = 32, beta: float = 0.2, amplitude: float = 0.1, t_end: float
         "xi = 1/2": bare.plus(DivBSource(xi=0.5)),
         "xi = 1": bare.plus(DivBSource(xi=1.0)),
     }
-    return in_scheme(variants, scheme, kernel=QuinticSpline())
+    return in_scheme(variants, scheme, kernel=QuinticSpline(h_fact=0.9))

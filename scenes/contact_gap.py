@@ -50,4 +50,4 @@ def scenes(nx: int = 64, ratio: float = 4.0, t_end: float = 2.0, seed: int = 0, 
         picture=Picture("rho", limits=(0.5, 1.25 * ratio), colours="cool", width=1000),
     )
     variants = {"density by mass": by_mass, "density by volume": by_mass.but(density=SumVolume())}
-    return in_scheme(variants, scheme)
+    return in_scheme(variants, scheme, slope="own")

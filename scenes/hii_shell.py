@@ -21,6 +21,7 @@ from taichi_spmhd import (
     LocallyIsothermal,
     Periodic,
     Picture,
+    QuinticSpline,
     Reflecting,
     Scene,
     Scheme,
@@ -82,4 +83,4 @@ def scenes(
         "density by volume": by_volume,
         "density by mass": by_volume.but(density=SumMass(), stepper=Heun()),  # less is lost
     }
-    return in_scheme(variants, scheme)
+    return in_scheme(variants, scheme, slope="own", kernel=QuinticSpline())
