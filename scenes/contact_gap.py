@@ -4,9 +4,11 @@ Lecture pp. 38-39; Hu & Adams 2006. rho = 1 outside and `ratio` in the middle, P
 The spacing is the same everywhere, so the masses jump with rho. The lattice starts jittered by a tenth of a spacing and
 flies at (1, 1/2) twice across the box. By mass a light particle at the contact counts its heavy neighbours as density
 of its own: its pressure is too high, a heavy one's too low, they part, the first row of heavy particles closes up and
-the gas is stirred. It costs about 20 s on two cores.
+the gas is stirred. After two crossings P is still 32 % off there; with scheme=godunov, whose P* is shared by both
+particles of a pair, 2.4 % by mass and 0.3 % by volume. It costs about 20 s on two cores.
 
     spmhd run contact_gap --set ratio=10
+    spmhd run contact_gap --set scheme=godunov
 """
 
 import numpy as np

@@ -2,9 +2,11 @@
 
 Lecture pp. 34-37. As `blast`, with a field at 45 degrees, |B| = 1 (beta = 0.2 outside). Without cleaning the density
 oscillates behind the shocks; with it h |div B| / |B| falls. A grid run (Athena++, 512^2) gives rho_max = 2.94 at t =
-0.15. It costs about 30 s on two cores.
+0.15. scheme=godunov smears less: with cleaning rho errs by 3.6 and v by 16 % (standard: 4.9 and 20 %). It costs about
+30 s on two cores.
 
     spmhd run mhd_blast --set nx=64
+    spmhd run mhd_blast --set scheme=godunov
 """
 
 from pathlib import Path

@@ -4,9 +4,11 @@ Balsara & Spicer 1999; the first rotor problem of Toth 2000. rho = 10 and v = 20
 outside, B along x, P = 1. The wound-up field squeezes the disc into an oblong and carries its spin away: at t = 0.15
 the middle, thinned to rho = 1, turns as a solid body still, but ten times slower. Next to it B^2/2 rises to 2.8 (beta
 0.2): P must stay positive. Cleaning halves h |div B| / |B| and smooths the strongest field. Equal masses, so the disc
-is resolved three times better than the gas around it. It costs about 100 s on two cores.
+is resolved three times better than the gas around it. scheme=godunov keeps the disc's rim sharper: at nx = 40 the
+largest rho is 9.5 (standard: 8.0). It costs about 100 s on two cores.
 
     spmhd run rotor --set nx=64
+    spmhd run rotor --set nx=64 scheme=godunov
 """
 
 import numpy as np

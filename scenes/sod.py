@@ -2,9 +2,11 @@
 
 Sod 1978; states 1, 0, 1 and 0.125, 0, 0.1, gamma = 1.4, t = 0.2. Exact plateaus: P = 0.30313, v = 0.92745, rho =
 0.42632 and 0.26557. dim=2 is a strip, periodic across. Equal masses: the dense side has 8 times as many particles a
-length. It costs about 3 s on two cores.
+length. scheme=godunov has no viscosity or conductivity: rho errs by 0.7 % (standard: 0.6), and the ledger's energy is
+exact for any step. It costs about 3 s on two cores.
 
     spmhd run sod
+    spmhd run sod --set scheme=godunov
 """
 
 from typing import Literal

@@ -1,5 +1,7 @@
 """Godunov SPMHD on the Alfven wave: second order, no growth, and clumps without the div B source only."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 
@@ -37,8 +39,7 @@ def followed(scene) -> tuple[float, list[float]]:
 @pytest.fixture(scope="module")
 def runs():
     """followed(nx), worked out once."""
-    known = {}
-    return lambda nx: known.setdefault(nx, followed(wave(nx=nx)))
+    return cache(lambda nx: followed(wave(nx=nx)))
 
 
 def test_the_wave_decays_and_never_grows(runs):
