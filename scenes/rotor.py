@@ -4,14 +4,16 @@ Balsara & Spicer 1999; the first rotor problem of Toth 2000. rho = 10 and v = 20
 outside, B along x, P = 1. The wound-up field squeezes the disc into an oblong and carries its spin away: at t = 0.15
 the middle, thinned to rho = 1, turns as a solid body still, but ten times slower. Next to it B^2/2 rises to 2.8 (beta
 0.2): P must stay positive. Cleaning halves h |div B| / |B| and smooths the strongest field. Equal masses, so the disc
-is resolved three times better than the gas around it. It costs about 100 s on two cores.
+is resolved three times better than the gas around it. scheme=godunov keeps the disc's rim sharper: at nx = 40 the
+largest rho is 9.5 (standard: 8.0). It costs about 100 s on two cores.
 
     spmhd run rotor --set nx=64
+    spmhd run rotor --set nx=64 scheme=godunov
 """
 
 import numpy as np
 
-from taichi_spmhd import Adiabatic, Box, Picture, QuinticSpline, Scene, hexagonal
+from taichi_spmhd import Adiabatic, Box, Picture, QuinticSpline, Scene, Scheme, hexagonal, in_scheme
 from taichi_spmhd.lattice import even, staggered
 from taichi_spmhd.terms import Cleaning, Conductivity, CullenDehnen, DivBSource, Induction, Resistivity, Stress
 
@@ -72,7 +74,7 @@ def ring(radius: float, n: int, k: int) -> np.ndarray:
     return radius * np.stack([np.cos(angle), np.sin(angle)], axis=1)
 
 
-def scenes(nx: int = 100, t_end: float = 0.15):
+def scenes(nx: int = 100, t_end: float = 0.15, scheme: Scheme = "standard"):
     """Without and with hyperbolic divergence cleaning. nx: particles along x of the gas outside."""
     x, mass = positions(nx)
     bare = Scene(
@@ -85,4 +87,5 @@ def scenes(nx: int = 100, t_end: float = 0.15):
         t_end=t_end,
         picture=Picture("B", limits=(0.0, 2.4), draw="sph"),
     )
-    return {"without cleaning": bare, "with cleaning": bare.plus(Cleaning())}
+    variants = {"without cleaning": bare, "with cleaning": bare.plus(Cleaning())}
+    return in_scheme(variants, scheme, kernel=QuinticSpline(h_fact=1.2))

@@ -27,7 +27,7 @@ try:
     from .render import snapshot as picture
     from .runtime import init
     from .scene import Scene
-    from .schemes import Scheme, with_scheme
+    from .schemes import Scheme, in_scheme, with_scheme
     from .simulation import Simulation
     from .stepper import SSPRK3, Heun, LeapfrogKDK, TimeCentred
     from .study import Anchor, Study
@@ -89,6 +89,7 @@ __all__ = [
     "exact",
     "glass",
     "hexagonal",
+    "in_scheme",
     "init",
     "jitter",
     "line",

@@ -35,15 +35,8 @@ class Adiabatic(Choice):
 class Radiating(Choice):
     """A gas without thermal energy: P follows from rho alone, the heat of friction is radiated away at once.
 
-    What it radiates, - sum of all heat but P/rho^2 drho/dt, is integrated in leak_E: shocks lose energy as predicted.
+    What it radiates is integrated in leak_E (terms/radiated.py): shocks lose energy as predicted.
     """
-
-    evolves, sums = {"leak_E": real}, {"u": real, "closing": real}
-    rank = 2  # when all heat is known: Godunov's terms state theirs once the forces are summed
-
-    @ti.func
-    def after(self, i, total, now):
-        return ti.Struct(leak_E=i.P * total.closing - total.u)
 
     def sound_speed(self, columns: dict) -> np.ndarray | float:
         """c of every particle, (N,) or one number."""

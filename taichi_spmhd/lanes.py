@@ -12,7 +12,7 @@ from functools import partial
 from . import runtime
 from .errors import InputError
 from .runtime import ti
-from .types import components, real, vec3, vecd
+from .types import components, real
 from .vector import Record, Vector3, nothing, struct_of, traced
 
 WIDEST = 8
@@ -32,8 +32,8 @@ class Lanes:
 
     def __init__(self, width: int, fields: dict, dim: int):
         self.width, self.dim = width, dim
-        sizes = {vec3: 3, vecd: dim, real: 0}
-        self.fields = {name: columns(field, sizes[kind]) for name, (field, kind) in fields.items()}
+        sizes = {name: 0 if kind is real else components(kind, dim) for name, (_, kind) in fields.items()}
+        self.fields = {name: columns(field, sizes[name]) for name, (field, _) in fields.items()}
         self.vectors = tuple(name for name, (_, kind) in fields.items() if kind is not real)
 
     @ti.func

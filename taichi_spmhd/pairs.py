@@ -6,10 +6,16 @@ from .boundary import LOWER, UPPER
 from .lanes import Lanes
 from .runtime import ti
 from .search import IMAGE
-from .types import integer
-from .vector import Record, Vector3, named, traced
+from .types import integer, real, slopes
+from .vector import Record, Vector3, named, nothing, traced
 
 TINY = 1e-30  # keeps r > 0 for the pair (i, i), whose unit vector is then zero
+
+
+def slope_of(kind) -> int | None:
+    """The axis of the component whose slope a member of this type is; None for a vector."""
+    axes = [a for a, slope in enumerate(slopes.values()) if slope is kind]
+    return axes[0] if axes else None
 
 
 @ti.data_oriented
@@ -21,9 +27,9 @@ class Pairs:
         self.lo, self.hi, self.size = box.lo, box.hi, box.size
         self.periodic = boundary.periodic
         self.mirrors = bool(boundary.images)
-        self.vectors = particles.vectors
         kinds = {name: kind for name, kind in particles.members.items() if kind is not integer}
         fields = {name: (particles.state.get_member_field(name), kind) for name, kind in kinds.items()}
+        self.vectors = {name: slope_of(kind) for name, kind in kinds.items() if kind is not real}
         self.lanes, self.names = Lanes(lanes, fields, self.dim), tuple(kinds)
 
     @ti.func
@@ -52,7 +58,7 @@ class Pairs:
             return self.lanes.many(entries, names or self.names)
         sides = [self.column([self.side(entry, a) for entry in entries]) for a in range(self.dim)]
         loads = self.lanes.loads([self.particle(entry) for entry in entries], names or self.names)
-        for name in ("x", *self.vectors):
+        for name in self.vectors:
             if name in loads:
                 loads[name] = partial(self.mirrored, name, loads[name], sides)
         return Record(loads)
@@ -67,6 +73,8 @@ class Pairs:
             sign = ti.select(side == 0, 1.0, -1.0)
             wall = ti.select(side == LOWER, 2.0 * self.lo[a], ti.select(side == UPPER, 2.0 * self.hi[a], 0.0))
             parts[a] = parts[a] * sign + (wall if name == "x" else 0.0)
+            if self.vectors[name] == a:  # the slope of a component that changes its sign itself
+                parts = [part if nothing(part) else part * sign for part in parts]
         return named(Vector3(parts))
 
     @traced

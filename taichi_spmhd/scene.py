@@ -20,6 +20,7 @@ from .stepper import LeapfrogKDK
 from .terms import Term
 from .terms.compression import Compression
 from .terms.frozen_ends import FrozenEnds
+from .terms.radiated import Radiated
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,6 +76,7 @@ class Scene:
     def parts(self) -> tuple:
         """The parts that do the work, in an order in which every need is made before."""
         parts = tuple(part.among(self.listed) for part in self.listed)
+        parts += (Radiated().among(parts),) if isinstance(self.eos, Radiating) else ()
         closing = (Compression(),) if any("closing" in part.sums for part in parts) else ()
         ends = (FrozenEnds().among(parts),) if self.boundary.frozen else ()
         return in_order((*parts, *closing, *ends))

@@ -22,18 +22,35 @@ from .terms import (
 from .terms.hyperbolic import Hyperbolic
 
 if TYPE_CHECKING:
+    from .kernels import Kernel
     from .scene import Scene
 
 Scheme = Literal["standard", "godunov"]
 DISSIPATION = (Viscosity, LectureViscosity, Conductivity, Resistivity, TriccoPrice2013)
 
 
-def with_scheme(scene: "Scene", scheme: Scheme, slope: str = "mean", **numbers) -> "Scene":
+def in_scheme(variants: dict, scheme: Scheme, **choices) -> dict:
+    """Every variant of a scene in this scheme, with the choices of with_scheme.
+
+    Godunov's knows one way of cleaning: variants that become the same scene are listed once, by the last of their
+    names.
+    """
+    if scheme == "standard":
+        return variants
+    made = {label: with_scheme(scene, scheme, **choices) for label, scene in variants.items()}
+    last = {(scene.start, scene.terms, scene.density): label for label, scene in made.items()}
+    return {label: made[label] for label in last.values()}
+
+
+def with_scheme(
+    scene: "Scene", scheme: Scheme, slope: str = "mean", kernel: "Kernel | None" = None, **numbers
+) -> "Scene":
     """The scene as it is ("standard"), or its gas by Riemann problems ("godunov").
 
     Godunov's takes the place of Pressure or Stress and of all artificial dissipation, steps once a step (TimeCentred),
-    cleans with one c_h for all, and with a field evolves both energies (Dual). slope: of the pairs (SumMass); numbers:
-    of GodunovHydro or GodunovMHD, for example order=1. Raises InputError for a scheme that does not exist.
+    cleans with one c_h for all, and with a field evolves both energies (Dual). slope: of the pairs (SumMass); kernel:
+    that of the scene where none is given; numbers: of GodunovHydro or GodunovMHD, for example order=1. Raises
+    InputError for a scheme that does not exist.
     """
     if scheme not in ("standard", "godunov"):
         raise InputError(f'scheme = {scheme!r}; give "standard" or "godunov"')
@@ -42,7 +59,8 @@ def with_scheme(scene: "Scene", scheme: Scheme, slope: str = "mean", **numbers) 
     terms = tuple(translated(term, numbers) for term in scene.terms if not isinstance(term, DISSIPATION))
     field = any(isinstance(term, Stress) for term in scene.terms) and not isinstance(scene.eos, Radiating)
     density = replace(scene.density, slope=slope)
-    return scene.but(terms=terms, density=density, stepper=TimeCentred(), energy=Dual() if field else Thermal())
+    energy = Dual() if field else Thermal()
+    return scene.but(terms=terms, density=density, kernel=kernel or scene.kernel, stepper=TimeCentred(), energy=energy)
 
 
 def translated(term, numbers: dict):

@@ -5,7 +5,7 @@ and whatever a term thinks of, is another kernel.
 """
 
 from .runtime import ti
-from .types import components, vec3, vecd
+from .types import components, integer, real
 from .vector import struct_of, traced
 
 
@@ -44,7 +44,7 @@ class Sums:
     def found(self, rows, n, kinds: dict):
         """The sums that were kept, as a struct."""
         found = {name: [self.entry(rows, n, k) for k in at] for name, at in places(kinds, self.dim).items()}
-        return struct_of({name: row if kinds[name] in (vec3, vecd) else row[0] for name, row in found.items()})
+        return struct_of({name: row[0] if kinds[name] in (real, integer) else row for name, row in found.items()})
 
     @ti.func
     def put(self, rows: ti.template(), n, column: ti.template(), value):

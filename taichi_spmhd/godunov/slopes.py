@@ -6,7 +6,7 @@ They are tensors of each particle; components along a pair's axis follow for eve
 """
 
 from ..runtime import ti
-from ..types import real, vec3, vecd
+from ..types import real, slopes, vec3, vecd
 from ..vector import named, traced
 
 FLAT = 0.1  # the smallest determinant of A that is inverted: below, the neighbours are on one side only
@@ -20,7 +20,7 @@ class Slopes:
 
     @property
     def gradients(self) -> dict:
-        return {"dP": vecd, **{f"d{name}{a}": vecd for name in self.fields for a in "xyz"}}
+        return {"dP": vecd, **{f"d{name}{a}": kind for name in self.fields for a, kind in slopes.items()}}
 
     @property
     def gathers(self) -> dict:

@@ -14,7 +14,7 @@ from ..render.pixels import draw, draw_curve, draw_profile
 from .lines import draw_lines, potential
 
 # what every simulation keeps for itself: nothing that a picture teaches
-INNER = {"x", "x0", "m", "h0", "hinv", "g", "held", "id", "leak_v", "leak_E", "div_v_before"}
+INNER = {"x", "x0", "m", "h0", "hinv", "g", "held", "id", "leak_v", "leak_E", "E_stored", "div_v_before"}
 FULL = {"div_B": 0.01, "gap": 1.2}  # the colours reach at least this far from 0: limits stay while these change
 COARSE = 2  # the smoothed field has no structure as small as two pixels of the screen, and costs a quarter
 PAD = 0.06  # of the range, above and below the dots of a profile
