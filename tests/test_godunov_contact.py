@@ -56,7 +56,7 @@ def test_the_blip_at_the_start_is_that_of_the_sum_and_falls_faster_in_godunovs_s
 
 
 def shell(label: str, **parameters) -> tuple[dict, float, np.ndarray, np.ndarray]:
-    """Summary, place of the contact over the solution's, P over the solution's of hot and of cold particles by place."""
+    """Summary, place of the contact over the solution's, and P over the solution's of hot and of cold particles."""
     with Simulation(load_scene("hii_shell", scheme="godunov", **parameters)[label]) as sim:
         c, solution = sim.run().columns(), exact.thin_shell(sim.time)
         summary = sim.summary()
