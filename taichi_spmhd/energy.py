@@ -95,8 +95,9 @@ class Dual(Total):
     """E is evolved, and beside it u of gas that is only squeezed, du_i/dt = P/rho^2 drho/dt
 
     What remains of E is taken where it is above `least` of the energy of the field, else that u (Bryan et al. 1995): at
-    beta of 1e-4 the former is a small difference of large numbers, of either sign; the latter stays positive. `switched`
-    counts, for each particle, the steps that ended with it; E is then set right and what that adds is booked in leak_E.
+    beta of 1e-4 the former is a small difference of large numbers, of either sign; the latter stays positive.
+    `switched` counts, for each particle, the steps that ended with it; E is then set right and what that adds is booked
+    in leak_E.
     """
 
     centred: bool = False

@@ -5,9 +5,9 @@ usual      quintic spline, xi = 1/2, viscosity by Cullen & Dehnen, cleaning: sha
 robust     Wendland C4, xi = 1/2, viscosity everywhere, cleaning: for what nobody has tried before
 godunov    Riemann problems and characteristics in place of all viscosity, Wendland C4, xi = 3/4, cleaning
 
-xi = 1/2 in the middle two: it makes the stress along B that of the gas alone, down to the lowest beta tried. xi = 1 has a margin
-for noise, but at a free surface its force takes the field that ends there for a source and blows particles off.
-Godunov's scheme has less friction to hide behind: with 1/2 waves along B grow at .006 v_A/dx, sheets clump; 3/4 stands.
+xi = 1/2 in the middle two: it makes the stress along B that of the gas alone, down to the lowest beta tried. xi = 1 has
+a margin for noise, but at a free surface its force takes the field that ends there for a source and blows particles
+off. In Godunov's scheme waves along B grow at .006 v_A/dx with 1/2, and current sheets clump; 3/4 stands both.
 """
 
 from collections.abc import Callable

@@ -14,7 +14,7 @@ A part is a frozen dataclass. Everything below is optional.
     live     {name: (low, high)}   numbers that may slide while a live run goes on, and the range that teaches something
 
     among(self, parts) -> part           the part beside the others of its scene (plain Python)
-    smooth(self) -> part                 the part without what small waves do not see, for linear analysis (plain Python)
+    smooth(self) -> part                 the part without limiters and switches, for linear analysis (plain Python)
     at(self, dim) -> part                the part for a number of dimensions (plain Python, when a Simulation is built)
     open(self, i, now) -> Struct         evolved members from primitive ones, once at t = 0
     close(self, i, now) -> Struct        the members it makes, at every evaluation
