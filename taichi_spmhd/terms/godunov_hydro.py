@@ -17,7 +17,7 @@ class GodunovHydro(Godunov):
     exactly, v^(1/2) = v + dt/2 dv/dt. No artificial viscosity or conductivity: shocks heat through P*. Momentum and
     energy are conserved to round-off for any dt. order=2: states from limited gradients, predicted to the middle of the
     step; pairs that approach faster than c/C_shock fall back to order 1. Needs stepper=TimeCentred(); best with
-    SumMass(width="mean").
+    SumMass(slope="mean").
     """
 
     reads = {"P": real, "cs": real, "rho": real, "v": vec3}

@@ -25,7 +25,7 @@ class GodunovMHD(Godunov):
     order=2: states from limited gradients, predicted to the middle of the step with all of the gradient tensors (along
     the pair's axis alone an Alfven wave in two dimensions would grow). Pairs that approach faster than c/C_shock are
     treated to first order: without that B_n jumps by a quarter behind strong shocks. Needs stepper=TimeCentred() and
-    Induction(), which carries B; best with SumMass(width="mean") and 20 or more neighbours (h_fact 1.2 in 2-D).
+    Induction(), which carries B; best with SumMass(slope="mean") and 20 or more neighbours (h_fact 1.2 in 2-D).
     """
 
     reads = {"P": real, "cs": real, "rho": real, "v": vec3, "B": vec3}
