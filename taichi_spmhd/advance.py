@@ -64,6 +64,16 @@ class Advance:
         return floors
 
     @ti.kernel
+    def bearable(self, loss: float) -> float:
+        """The longest step that takes no more than this share of anybody's u, where u is evolved."""
+        longest = ti.cast(1e30, float)
+        for n in range(self.p.n):
+            for key in ti.static([name for name in ("u", "u_own") if name in self.p.names]):
+                down = ti.max(-self.free(self.p.state[n], key) * self.p.rate[n][key], 0.0)
+                ti.atomic_min(longest, loss * self.p.state[n][key] / (down + 1e-30))
+        return longest
+
+    @ti.kernel
     def forward(self, dt: float) -> ti.i32:
         """x += dt (v + dt/2 a), every evolved member q += dt dq/dt; returns 1 + the place of an ill particle, or 0."""
         found = 0

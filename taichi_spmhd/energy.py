@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from .errors import InputError
 from .runtime import ti
-from .terms.base import Choice
+from .terms.base import Choice, known_as
 from .terms.held import free
 from .types import real, vec3
 
@@ -114,6 +114,7 @@ class Dual(Total):
         return MagneticDual(total.centred, self.least) if isinstance(total, MagneticTotal) else Thermal()
 
 
+@known_as("Dual")
 @dataclass(frozen=True)
 class MagneticDual(MagneticTotal):
     """E, and u_own beside it, in a scene with a field."""

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from .scene import Scene
 
 Scheme = Literal["standard", "godunov"]
+KNOWN = {"order", "limiter", "C_shock"}
 DISSIPATION = (Viscosity, LectureViscosity, Conductivity, Resistivity, TriccoPrice2013)
 
 
@@ -56,6 +57,9 @@ def with_scheme(
         raise InputError(f'scheme = {scheme!r}; give "standard" or "godunov"')
     if scheme == "standard":
         return scene
+    unknown = set(numbers) - KNOWN
+    if unknown:
+        raise InputError(f"with_scheme: {', '.join(sorted(unknown))} unknown; there are {', '.join(sorted(KNOWN))}")
     terms = tuple(translated(term, numbers) for term in scene.terms if not isinstance(term, DISSIPATION))
     field = any(isinstance(term, Stress) for term in scene.terms) and not isinstance(scene.eos, Radiating)
     density = replace(scene.density, slope=slope)

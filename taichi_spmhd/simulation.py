@@ -108,9 +108,9 @@ class Simulation(Readable):
         self.dt = dt
         self.longest = stepped(self, dt)
         if self.rhs.keys["settle"]:
-            self.rhs.settle(self.time, dt, self.rhs.moment.most)
+            self.rhs.settle(self.time, self.dt, self.rhs.moment.most)
         self.watch.look(self)
-        self.time += dt
+        self.time += self.dt  # which a stepper may have shortened
         self.steps += 1
         spent = time.perf_counter() - clock
         if self.warm:
@@ -129,7 +129,7 @@ class Simulation(Readable):
             remaining = until - self.time
             parts = int(np.ceil(remaining / self.longest * (1 - 1e-6))) if self.longest > 0 else 0
             self.step(remaining / parts if parts > 0 else 0.0)
-            if parts == 1:
+            if parts == 1 and self.dt == remaining:
                 self.time = until
             if watch is not None:
                 watch(self)

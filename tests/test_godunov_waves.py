@@ -66,6 +66,7 @@ def test_the_wave_converges_to_second_order(runs):
     assert 0.998 < amplitudes[-1] < 1  # measured 0.9989
 
 
+@pytest.mark.slow
 def test_without_a_limiter_it_decays_too():
     # nothing but the Riemann problems and the time step is left: one that adds energy would show. Measured 0.9936
     error, amplitudes = followed(wave(nx=32).tuned("GodunovMHD", limiter="none"))

@@ -16,6 +16,8 @@ def summary(sim) -> dict:
     if "B" in columns:
         out.update({"div_B": div_B_figures(sim, columns), **instability(sim, columns)})
     out["floors"] = int(sim.floors)
+    if "switched" in columns:  # steps of particles in which Dual took u from its own equation
+        out["energy_switches"] = int(columns["switched"].astype(float).sum())
     found = errors(sim, columns)
     return {**out, "errors": found} if found else out
 

@@ -40,6 +40,16 @@ read from the device (sliding.py): use them in arithmetic, never in ti.static.
 from dataclasses import fields
 
 
+def known_as(name: str):
+    """Marks a form of a part that `among` chooses: messages, sliders and saved states know it by the scene's name."""
+
+    def renamed(kind: type) -> type:
+        kind.__name__ = kind.__qualname__ = name
+        return kind
+
+    return renamed
+
+
 class Part:
     """What terms and choices share: nothing is read, evolved, made or kept unless a class says so."""
 

@@ -3,6 +3,7 @@ from dataclasses import dataclass
 from ..errors import InputError
 from ..runtime import ti
 from ..types import real, vec3
+from .base import known_as
 from .hyperbolic import SAFE, Hyperbolic
 
 FRAMES = ("flow", "eulerian")
@@ -114,6 +115,7 @@ class Unscaled(ConstantCleaning):
         return ti.Struct(psi=i.psi * left, y=y, leak_E=i.leak_E - 0.5 * (before * before - y * y) / i.rho)
 
 
+@known_as("ConstantCleaning")
 @dataclass(frozen=True)
 class CentredCleaning(ConstantCleaning):
     """y <- y - dt c_h div B first, then d(B/rho)_i/dt = - c_h sum_j ( y_i Gi + y_j Gj ) e with that y

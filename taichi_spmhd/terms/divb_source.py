@@ -4,7 +4,7 @@ from numbers import Real
 from ..errors import InputError
 from ..runtime import ti
 from ..types import real, vec3
-from .base import Term
+from .base import Term, known_as
 from .godunov_mhd import GodunovMHD
 from .xi_rules import XiRule
 
@@ -63,6 +63,7 @@ class DivBSource(Term):
         return ti.Struct(v=force, leak_v=force, leak_E=force.dot(i.v))
 
 
+@known_as("DivBSource")
 @dataclass(frozen=True)
 class CentredSource(DivBSource):
     """dv_i/dt = - xi B_i S_i,   S_i = sum_j Bn ( Gi + Gj ):   the div B that GodunovMHD contains, in mid-step

@@ -1,10 +1,12 @@
 """What both Godunov terms share: their numbers, what they replace, and the law of the waves that the gas has."""
 
 from dataclasses import dataclass, replace
+from numbers import Real
 
 from ..eos import Adiabatic, Radiating
 from ..errors import InputError
 from ..godunov.limiter import LIMITERS
+from ..guard import ours
 from ..runtime import ti
 from .base import Term
 from .held import free
@@ -29,29 +31,23 @@ class Godunov(Term):
 
     def __post_init__(self):
         name = type(self).__name__
-        if self.order not in (1, 2):
+        if isinstance(self.order, bool) or self.order not in (1, 2):
             raise InputError(f"{name}: order = {self.order!r}; give 1 or 2")
-        if self.limiter not in LIMITERS:
+        if not isinstance(self.limiter, str) or self.limiter not in LIMITERS:
             raise InputError(f"{name}: limiter = {self.limiter!r}; give one of {', '.join(LIMITERS)}")
-        if not 0 <= self.C_shock <= 1e6:
+        if not (isinstance(self.C_shock, Real) and 0 <= self.C_shock <= 1e6):
             raise InputError(f"{name}: C_shock = {self.C_shock} must lie in 0..1e6; 3 is usual")
 
-    @classmethod
-    def title(cls) -> str:
-        """The name a scene knows it by."""
-        return next(kind.__name__ for kind in cls.__mro__ if "orders" in kind.__dict__)
-
     def __str__(self) -> str:
-        return f'{self.title()}(order={self.order}, limiter="{self.limiter}", C_shock={self.C_shock:g})'
+        return f'{type(self).__name__}(order={self.order}, limiter="{self.limiter}", C_shock={self.C_shock:g})'
 
     def among(self, parts: tuple) -> "Godunov":
         """The class that does what `order` says, with the waves of the scene's gas."""
+        own = type(self).__name__
         for part in parts:
-            if isinstance(part, Term) and part is not self and type(part).__name__ not in self.beside:
-                name = type(part).__name__
-                raise InputError(
-                    f"terms: {self.title()} contains what {name} does, or cannot work with it; leave out {name}"
-                )
+            name = type(part).__name__
+            if isinstance(part, Term) and part is not self and ours(part) and name not in self.beside:
+                raise InputError(f"terms: {own} contains what {name} does, or cannot work with it; leave out {name}")
         eos = next(part for part in parts if isinstance(part, Adiabatic | Radiating))
         made = self.orders()[self.order](self.order, self.limiter, self.C_shock)
         return replace(made, law=self.waves(eos))

@@ -6,6 +6,7 @@ from ..godunov.states import FirstOrder, SecondOrder
 from ..runtime import ti
 from ..types import real, vec3
 from ..vector import traced
+from .base import known_as
 from .godunov import Godunov
 
 
@@ -61,11 +62,13 @@ class GodunovHydro(Godunov):
         return ti.Struct(v=total.push, u=total.heat - self.gain(i, total, now).dot(total.push))
 
 
+@known_as("GodunovHydro")
 @dataclass(frozen=True)
 class FirstOrderHydro(FirstOrder, GodunovHydro):
     """Riemann problems of the particles as they are."""
 
 
+@known_as("GodunovHydro")
 @dataclass(frozen=True)
 class SecondOrderHydro(SecondOrder, GodunovHydro):
     """Riemann problems of limited states in the middle of the step."""

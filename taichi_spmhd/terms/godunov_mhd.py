@@ -9,6 +9,7 @@ from ..godunov.states import FirstOrder, SecondOrder
 from ..runtime import ti
 from ..types import real, vec3
 from ..vector import traced
+from .base import known_as
 from .godunov import Godunov
 
 
@@ -92,11 +93,13 @@ class GodunovMHD(Godunov):
             return 0.0 * total.v
 
 
+@known_as("GodunovMHD")
 @dataclass(frozen=True)
 class FirstOrderMHD(FirstOrder, GodunovMHD):
     """Riemann problems of the particles as they are."""
 
 
+@known_as("GodunovMHD")
 @dataclass(frozen=True)
 class SecondOrderMHD(SecondOrder, GodunovMHD):
     """Riemann problems of limited states in the middle of the step."""

@@ -3,7 +3,7 @@ from dataclasses import dataclass
 from ..errors import InputError
 from ..runtime import ti
 from ..types import real, vec3
-from .base import Term
+from .base import Term, known_as
 from .godunov_mhd import GodunovMHD
 
 FORMS = ("B/rho", "B")
@@ -68,6 +68,7 @@ class InductionOfB(Term):
         return ti.Struct(B=i.rho * (total.b + total.closing * i.B))
 
 
+@known_as("Induction")
 @dataclass(frozen=True)
 class Carried(Term):
     """b = B/rho is evolved and B = rho b follows; GodunovMHD says at what rate, from its characteristics."""
