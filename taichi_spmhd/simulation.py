@@ -56,7 +56,8 @@ class Simulation(Readable):
         members = {k: v for part in parts for k, v in part.members().items()}
         evolved = {k: v for part in parts for k, v in part.evolves.items()}
         frozen = scene.boundary.frozen
-        self.particles = p = Particles(n, self.dim, members | ({"held": integer} if frozen else {}), evolved)
+        together = tuple(dict.fromkeys(name for part in parts for name in part.together))
+        self.particles = p = Particles(n, self.dim, members | ({"held": integer} if frozen else {}), evolved, together)
         self.saved = scene.stepper.prepare(p)
         p.companions.append((p.old, p.rate))
         self.sliding = None if spare is None else Sliding((*parts, scene.stepper), p.tree)

@@ -8,9 +8,11 @@ import numpy as np
 from ..errors import InputError
 from ..lattice import cubic, jitter, square
 from ..scene import Scene
+from ..schemes import with_scheme
 from ..terms import Cleaning, Conductivity, DivBSource, Induction, Pressure, Resistivity, Stress, Viscosity
 
-CASES = tuple(f"{gas}{dim}d_{precision}" for precision, gas, dim in product(("f64", "f32"), ("mhd", "hydro"), (3, 2)))
+GASES = ("mhd", "hydro", "godunov")  # godunov: MHD by Riemann problems
+CASES = tuple(f"{gas}{dim}d_{precision}" for precision, gas, dim in product(("f64", "f32"), GASES, (3, 2)))
 SIZES = {"3d": 32, "2d": 180}  # particles along an axis
 QUICK = {"3d": 20, "2d": 64}
 LARGE = {"3d": (31, 100), "2d": (173, 1000)}  # 3 10^4 and 10^6 particles
@@ -41,11 +43,12 @@ def sizes(given, quick: bool) -> dict[str, int]:
 
 def scene(case: str, nx: int) -> Scene:
     """nx^d particles 0.1 spacings off a lattice, vortices with v up to 0.4 c_s, beta above 2; cubic spline."""
-    magnetic, dim = case.startswith("mhd"), 3 if "3d" in case else 2
+    magnetic, dim = not case.startswith("hydro"), 3 if "3d" in case else 2
     box = (1.0,) * dim
     lattice = cubic(box, nx) if dim == 3 else square(box, nx)
     start = vortices if magnetic else without_field
-    return Scene(box=box, positions=jitter(lattice, box, 0.1, 1), start=start, terms=MHD if magnetic else HYDRO)
+    made = Scene(box=box, positions=jitter(lattice, box, 0.1, 1), start=start, terms=MHD if magnetic else HYDRO)
+    return with_scheme(made, "godunov" if case.startswith("godunov") else "standard")
 
 
 def vortices(x: np.ndarray) -> dict:

@@ -14,8 +14,8 @@ def calls(sim) -> list[tuple[str, object, str]]:
         *(("sort", cells, name) for name in ("bin", "sort")),
         *(("list", near, name) for name in ("list", "slack")),
         ("density", sim.density, "solve"),
-        *(("rates", rhs, name) for name in ("close", "gather", "gathered", "rates", "finish")),
-        *(("kick", advance, name) for name in ("predict", "correct")),
+        *(("rates", rhs, name) for name in ("close", "gather", "gathered", "rates", "finish", "alone")),
+        *(("kick", advance, name) for name in ("predict", "correct", "forward", "bearable")),
         ("kick", rhs, "settle"),
     ]
 

@@ -36,6 +36,10 @@ class Slopes:
         middle = {"P_mid": real, "rho_mid": real, **{f"{name}_mid": vec3 for name in self.fields}}
         return {"vw": real, **self.gradients, **middle}
 
+    @property
+    def together(self) -> tuple:
+        return tuple(self.makes)
+
     @traced
     def gather(self, i, j, w):
         along = named(w.e * w.Gi)

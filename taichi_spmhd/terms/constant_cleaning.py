@@ -125,7 +125,7 @@ class CentredCleaning(ConstantCleaning):
     """
 
     gathers = {"div_B": real}
-    makes = {"y_new": real, "div_B": real}
+    makes, together = {"y_new": real, "div_B": real}, ("y_new",)
     sums = {"b": vec3, "closing": real}
 
     def __post_init__(self):
