@@ -30,6 +30,7 @@ class Lanewise:
 
         self.impl, self.ops, self.core, self.u1 = impl, ops, _ti_core, taichi.u1
         self.unary, self.binary, self.cast = ops._unary_operation, ops._binary_operation, ops.cast
+        self.extremes = {_ti_core.expr_max: ops.cmp_gt, _ti_core.expr_min: ops.cmp_lt}
         self.native = {getattr(_ti_core, f"expr_{name}", None) for name in NATIVE}
 
     def tensor(self, value) -> bool:
@@ -69,7 +70,12 @@ class Lanewise:
         return self.each(lambda x: self.unary(operation, python, x), a)
 
     def two(self, operation, python, a, b):
-        """An operation on two values; a whole power is multiplications."""
+        """An operation on two values; a whole power is multiplications.
+
+        A choice by comparison is one instruction, a maximum that heeds NaN would be three.
+        """
+        if operation in self.extremes and self.lanes(a, b):
+            return self.ops.select(self.extremes[operation](a, b), a, b)
         whole_power = operation is self.core.expr_pow and isinstance(b, int)
         if not self.lanes(a, b) or operation in self.native or whole_power:
             return self.binary(operation, python, a, b)

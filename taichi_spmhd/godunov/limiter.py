@@ -13,18 +13,16 @@ def iwasaki_inutsuka(slope, jump):
 
     Iwasaki & Inutsuka 2011. 2 D - df is the difference to the virtual particle on the other side.
     """
-    size = ti.abs(jump)
-    along = ti.select(jump < 0.0, -slope, slope)
-    part = ti.max(ti.min(ti.min(2.0 * size, along), 4.0 * along - 2.0 * size), 0.0)
-    return ti.select(jump < 0.0, -part, part)
+    twice = 2.0 * jump
+    far = 4.0 * slope - twice
+    least, most = ti.min(ti.min(slope, twice), far), ti.max(ti.max(slope, twice), far)
+    return ti.max(least, 0.0) + ti.min(most, 0.0)
 
 
 @ti.func
 def minmod(slope, jump):
     """The smaller of slope and jump where they agree in sign, else 0: never steeper than the pair itself."""
-    size = ti.abs(jump)
-    part = ti.max(ti.min(size, ti.select(jump < 0.0, -slope, slope)), 0.0)
-    return ti.select(jump < 0.0, -part, part)
+    return ti.max(ti.min(slope, jump), 0.0) + ti.min(ti.max(slope, jump), 0.0)
 
 
 @ti.func
