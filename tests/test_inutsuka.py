@@ -6,14 +6,12 @@ from test_godunov_conservation import ROUND_OFF, scene, wandered
 from test_godunov_parts import applied
 from test_godunov_tubes import sod
 
-from taichi_spmhd import Adiabatic, Gaussian, InputError, Simulation, TimeCentred
+from taichi_spmhd import Adiabatic, CubicSpline, Gaussian, InputError, Simulation, TimeCentred, Total
 from taichi_spmhd.density import SumMass, SumVolume
-from taichi_spmhd.godunov.between import BETWEEN
-from taichi_spmhd.lattice import jitter, line
+from taichi_spmhd.godunov.between import BETWEEN, CLOSEST
 from taichi_spmhd.runtime import ti
 from taichi_spmhd.scene import Scene
-from taichi_spmhd.terms import GodunovHydro, GodunovMHD, Induction, Pressure, Viscosity
-
+from taichi_spmhd.terms import GodunovHydro, GodunovMHD, Induction, Pressure
 
 
 def pairs(n=200, seed=4):
@@ -50,7 +48,9 @@ def curve(slope, ends, q) -> np.ndarray:
     if slope == "linear":
         return line
     s, one, none = np.array([half, -half]), np.ones_like(half), np.zeros_like(half)
-    rows = [np.column_stack([x**3, x**2, x, one]) for x in s] + [np.column_stack([3 * x**2, 2 * x, one, none]) for x in s]
+    rows = [np.column_stack([x**3, x**2, x, one]) for x in s] + [
+        np.column_stack([3 * x**2, 2 * x, one, none]) for x in s
+    ]
     cubic = np.linalg.solve(np.stack(rows, 1), np.column_stack([V_i, V_j, q["dV_i"], q["dV_j"]])[..., None])[..., 0]
     return np.where((q["dV_i"] * q["dV_j"] < 0)[:, None], line, cubic)
 
@@ -83,7 +83,131 @@ def test_weights_and_shift_are_integrals_over_the_product_of_both_kernels(slope,
         dW = -2 * q["r"] / wide**3 / np.sqrt(np.pi) * np.exp(-((q["r"] / wide) ** 2))
         inside = q["r"] < 3 * wide
         assert G[inside] == pytest.approx((MADE[density](q) * square_k * dW)[inside], rel=1e-10)  # measured 1e-14
-        assert (G[~inside] == 0).all() and 0.02 < (~inside).mean() < 0.5
+        assert (G[~inside] == 0).all() and (~inside).any()
     s = 2 * moment / square / q["r"]
     assert shift == pytest.approx(np.clip(s, -1, 1), abs=1e-10)  # measured 1e-14
     assert 0.05 < (abs(s) > 1).mean() < 0.6
+
+
+@pytest.mark.parametrize("slope", BETWEEN)
+def test_where_rho_is_constant_the_volume_is_that_of_both(slope):
+    """Whatever h and m are, and where both would be on one spot but for less than CLOSEST h."""
+    q = pairs() | {"rho_i": 1.3, "rho_j": 1.3, "dV_i": 0.0, "dV_j": 0.0}
+    q["r"][:50] = CLOSEST / 50
+    Gi, _, shift = weighed(SumMass(slope=slope), q).T
+    wide = np.sqrt(2) * q["h_i"]
+    dW = np.where(q["r"] < 3 * wide, -2 * q["r"] / wide**3 / np.sqrt(np.pi) * np.exp(-((q["r"] / wide) ** 2)), 0)
+    assert Gi == pytest.approx(q["m_j"] / 1.3**2 * dW, rel=1e-12)
+    assert (shift == 0).all()
+
+
+def assert_complete(sim) -> None:
+    """Every pair within sqrt(2) supports is listed, and few others."""
+    c, size = sim.particles.in_memory(), np.array(sim.scene.box.size)
+    apart = c["x"][:, None] - c["x"]
+    r = np.linalg.norm(apart - size * np.round(apart / size), axis=-1)
+    within = r < np.sqrt(2) * sim.scene.kernel.support * np.maximum(c["h"][:, None], c["h"])
+    near, count = sim.neighbours.near.to_numpy(), sim.neighbours.rows.to_numpy()
+    listed = np.zeros((len(sim), len(sim) + 1), bool)
+    for n, row in enumerate(near):
+        listed[n, row[: count[n]]] = True
+    assert not (within & ~listed[:, :-1]).any()
+    assert listed[:, :-1].sum() < 1.6 * within.sum()  # the list is 1.2 times as wide at most
+
+
+@pytest.mark.parametrize(
+    ("order", "density", "field"),
+    [
+        (2, SumMass, False),
+        pytest.param(1, SumMass, False, marks=pytest.mark.slow),
+        pytest.param(2, SumVolume, False, marks=pytest.mark.slow),
+        pytest.param(2, SumMass, True, marks=pytest.mark.slow),
+    ],
+)
+def test_momentum_and_energy_are_conserved_and_no_pair_is_lost(simulate, order, density, field):
+    terms = (GodunovMHD(order=order), Induction()) if field else (GodunovHydro(order=order),)
+    energy = {"energy": Total()} if field else {}
+    sim = simulate(scene(*terms, density=density(slope="linear"), **energy))
+    for drift in wandered(sim):
+        assert abs(drift["energy_drift"]) < ROUND_OFF  # measured 1.5e-16
+        assert drift["momentum_drift"] < ROUND_OFF  # measured 4e-16
+    assert_complete(sim)
+
+
+@pytest.mark.parametrize("slope", [pytest.param("linear", marks=pytest.mark.slow), "cubic"])
+def test_the_plateaus_of_sod_are_right(slope):
+    # measured .03 % ("linear") and .02 %; "own" has .06 %. Sides shifted the wrong way round: SHIFTED
+    assert np.abs(sod(2, slope)).max() < 0.002
+
+
+RATIO, SIZE = 4, 160
+
+
+def contact(slope: str) -> float:
+    """The largest |P - 1| beside two contacts at rest, t = 0.2: equal masses in 1-D, rho = 4 and 1, P = 1."""
+    thin = SIZE // (1 + RATIO)
+    dense = SIZE - thin
+    inner, outer = 0.25 + 0.5 * (np.arange(dense) + 0.5) / dense, 0.75 + 0.5 * (np.arange(thin) + 0.5) / thin
+    at_rest = Scene(
+        box=((0.0, 1.0),),
+        positions=np.concatenate([inner, outer % 1.0]),
+        start=lambda x: {"rho": np.where(abs(x[:, 0] - 0.5) < 0.25, RATIO, 1.0), "mass": 0.5 * RATIO / dense, "P": 1.0},
+        terms=(GodunovHydro(),),
+        eos=Adiabatic(1.4),
+        kernel=Gaussian(),
+        density=SumMass(slope=slope),
+        stepper=TimeCentred(),
+        t_end=0.2,
+    )
+    with Simulation(at_rest) as sim:
+        return float(abs(sim.run()["P"] - 1).max())
+
+
+OWN = 0.191  # what slope="own" leaves
+
+
+def test_the_blip_at_a_contact_at_rest_is_smaller():
+    # measured .159: the pairs across it are pushed apart by less
+    assert contact("linear") < 0.9 * OWN
+
+
+@pytest.mark.slow
+def test_the_blip_is_smallest_on_a_cubic():
+    assert contact("own") == pytest.approx(OWN, rel=0.05)
+    assert contact("cubic") < 0.9 * 0.9 * OWN  # measured .136
+
+
+def pile(*terms, dim=1, slope="linear", **choices) -> Scene:
+    x = np.stack(np.meshgrid(*[np.arange(12) / 12] * dim), axis=-1).reshape(-1, dim)
+    return Scene(
+        box=(1.0,) * dim,
+        positions=x,
+        start=lambda x: {"rho": 1.0, "P": 1.0} | ({"B": [1.0, 0.0, 0.0]} if len(terms) > 1 else {}),
+        terms=terms,
+        density=SumMass(slope=slope),
+        **choices,
+    )
+
+
+REFUSED = {
+    "Pressure": ((Pressure(),), {}, r'list GodunovHydro\(\), or give slope="variational"'),
+    "cubic in 2-D": ((GodunovHydro(),), {"dim": 2, "slope": "cubic"}, 'would clump in 2: give slope="linear"'),
+    "cubic with B": ((GodunovMHD(), Induction()), {"slope": "cubic"}, 'without a field: give slope="own"'),
+}
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_what_it_is_not_for_is_refused_with_the_cure(name):
+    terms, choices, cure = REFUSED[name]
+    centred = {} if name == "Pressure" else {"stepper": TimeCentred()}
+    with pytest.raises(InputError, match=cure) as said:
+        pile(*terms, **choices, **centred)
+    assert "\n" not in str(said.value)
+
+
+def test_a_box_must_hold_the_wider_pairs():
+    made = pile(GodunovHydro(), stepper=TimeCentred(), kernel=CubicSpline(h_fact=2.5))
+    with pytest.raises(InputError, match="narrower than two kernel supports"), Simulation(made):
+        pass
+    with Simulation(made.but(density=SumMass(slope="own"))) as sim:
+        assert len(sim) == 12
