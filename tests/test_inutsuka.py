@@ -136,14 +136,14 @@ def test_no_state_leaves_the_interval_between_the_pair():
 
 
 def test_the_slope_of_the_volume_is_that_of_the_density(simulate):
-    """On a line that is stretched by 20 %; difference quotients of the summed density over two spacings."""
+    """On a line whose spacing varies by 20 %: difference quotients of the summed density over two spacings."""
     x = np.arange(100) / 100
     x = x + 0.03 * np.sin(2 * np.pi * x)
-    sim = simulate(tube_of(x, "cubic"))
+    sim = simulate(tube_of(x, "cubic", terms=(GodunovHydro(order=1),)))
     sim.begin()
     V, place = 1 / sim["rho"], np.unwrap(2 * np.pi * sim["x"][:, 0]) / (2 * np.pi)
     quotient = (V[2:] - V[:-2]) / (place[2:] - place[:-2])
-    assert abs(sim["dV"][1:-1, 0] - quotient).max() < 0.02 * abs(quotient).max()  # measured DVERR
+    assert abs(sim["dV"][1:-1, 0] - quotient).max() < 0.005 * abs(quotient).max()  # measured .0016
 
 
 def tube_of(x, slope: str, **changes) -> Scene:
@@ -215,18 +215,18 @@ def contact(slope: str) -> float:
         return float(abs(sim.run()["P"] - 1).max())
 
 
-OWN = 0.191  # what slope="own" leaves
+OWN = 0.170  # what slope="own" leaves
 
 
 def test_the_blip_at_a_contact_at_rest_is_smaller():
-    # measured .159: the pairs across it are pushed apart by less
+    # measured .136: the pairs across it are pushed apart by less
     assert contact("linear") < 0.9 * OWN
 
 
 @pytest.mark.slow
 def test_the_blip_is_smallest_on_a_cubic():
     assert contact("own") == pytest.approx(OWN, rel=0.05)
-    assert contact("cubic") < 0.9 * 0.9 * OWN  # measured .136
+    assert contact("cubic") < 0.9 * 0.9 * OWN  # measured .118
 
 
 def pile(*terms, dim=1, slope="linear", **choices) -> Scene:
