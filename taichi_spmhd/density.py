@@ -5,13 +5,15 @@
 (lecture pp. 4, 10-11, 38-39; Springel & Hernquist 2002, Price 2012). Terms see the choice only through w.Gi and w.Gj.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from math import sqrt
 
 from .errors import InputError
+from .godunov.between import BETWEEN, spread
 from .runtime import ti
 from .terms.base import Choice
 
-SLOPES = ("variational", "own", "mean")
+SLOPES = ("variational", "own", "mean", *BETWEEN)
 
 
 @dataclass(frozen=True)
@@ -25,6 +27,11 @@ class Summation(Choice):
     Omega. "own": the same without Omega; "mean": both at the mean of 1/h, without Omega, one kernel a pair instead of
     two. Godunov's scheme needs no variation and is more accurate without Omega (Iwasaki & Inutsuka 2011): with "mean"
     in turbulence, with "own" where strong shocks squeeze the gas along one line (docs/physics.md).
+
+    "linear", "cubic": Inutsuka's (2002) own weights, V_ij^2(h) W'(r, sqrt(2) h) at h_i and at h_j, V = 1/rho between
+    the pair on a line, or on a cubic (in 1-D only: elsewhere it lets particles clump), and Riemann states that meet at
+    s* (godunov/between.py). Derived for the Gaussian kernel; other kernels take its formulas by their h. V_ij = V where
+    rho is constant. Pairs reach sqrt(2) supports. For GodunovHydro; "linear" for GodunovMHD, too.
     """
 
     tolerance: float = 1e-4
@@ -37,12 +44,26 @@ class Summation(Choice):
         if self.slope not in SLOPES:
             raise InputError(f"{name}: slope = {self.slope!r}; give one of {', '.join(SLOPES)}")
 
+    @property
+    def reach(self) -> float:
+        """How far pairs reach, in supports of the kernel."""
+        return sqrt(2.0) if self.slope in BETWEEN else 1.0
+
+    @property
+    def early(self) -> "Summation":
+        """What weighs the pairs of `gather`: there nobody knows yet what is between them."""
+        return replace(self, slope="own") if self.slope in BETWEEN else self
+
+    def offers(self, weight: str) -> bool:
+        """Whether this choice has a weight that a part asks for."""
+        return weight != "shift" or self.slope in BETWEEN
+
     @ti.func
     def g(self, slope, Omega, rho):
         """The member g, what a particle has to the slopes of its pairs; slope = sigma/h^(d+1)."""
         if ti.static(self.slope == "mean"):
             return 1.0 / (rho * rho)
-        elif ti.static(self.slope == "own"):
+        elif ti.static(self.slope != "variational"):
             return slope / (rho * rho)
         else:
             return slope / (Omega * rho * rho)
@@ -53,9 +74,36 @@ class Summation(Choice):
         r2 = d.dot(d)
         rinv = 1.0 / ti.sqrt(r2 + 1e-30)
         r = r2 * rinv
-        own, other = self.masses(i, j)
-        at_i, at_j = self.slopes(i, j, r, kernel)
-        return ti.Struct(e=d * rinv, r=r, Gi=own * at_i, Gj=other * at_j)
+        if ti.static(self.slope in BETWEEN):
+            at_i, at_j = self.between(i, j, d * rinv, r, kernel)
+            return ti.Struct(e=d * rinv, r=r, Gi=at_i, Gj=at_j)
+        else:
+            own, other = self.masses(i, j)
+            at_i, at_j = self.slopes(i, j, r, kernel)
+            return ti.Struct(e=d * rinv, r=r, Gi=own * at_i, Gj=other * at_j)
+
+    @ti.func
+    def between(self, i, j, e, r, kernel: ti.template()):
+        """Gi and Gj of "linear" and "cubic"."""
+        even, q_i, q_j = self.even(i, j), r * i.hinv, r * j.hinv
+        V = BETWEEN[self.slope].curve(i, j, self.room(i), self.room(j), e, r)
+        at_i, at_j = self.wide(i, q_i, kernel), self.wide(j, q_j, kernel)
+        return (
+            even * at_i * BETWEEN[self.slope].square(V, spread(q_i)),
+            even * at_j * BETWEEN[self.slope].square(V, spread(q_j)),
+        )
+
+    @ti.func
+    def wide(self, s, q, kernel: ti.template()):
+        """W'(r, sqrt(2) h), q = r/h"""
+        return s.g * s.rho * s.rho * ti.static(0.5 ** (0.5 * (kernel.dim + 1))) * kernel.df(q * ti.static(sqrt(0.5)))
+
+    @ti.func
+    def shift(self, i, j, w, kernel: ti.template()):
+        """2 s*/r at the mean h: from -1, where the Riemann problem of the pair is at j, to 1, where it is at i."""
+        V = BETWEEN[self.slope].curve(i, j, self.room(i), self.room(j), w.e, w.r)
+        t = spread(2.0 * w.r / (i.h + j.h))
+        return ti.max(ti.min(BETWEEN[self.slope].moment(V, t) / BETWEEN[self.slope].square(V, t), 1.0), -1.0)
 
     @ti.func
     def slopes(self, i, j, r, kernel: ti.template()):
@@ -114,6 +162,16 @@ class SumMass(Summation):
         """The masses that weigh the slopes at h_i and at h_j."""
         return j.m, j.m
 
+    @ti.func
+    def room(self, s):
+        """The volume that is interpolated between a pair."""
+        return 1.0 / s.rho
+
+    @ti.func
+    def even(self, i, j):
+        """What weighs the square of the volume between a pair, at h_i and at h_j."""
+        return j.m
+
 
 @dataclass(frozen=True)
 class SumVolume(Summation):
@@ -138,6 +196,14 @@ class SumVolume(Summation):
     @ti.func
     def masses(self, i, j):
         return i.m * self.share(j), j.m * (j.m / i.m)
+
+    @ti.func
+    def room(self, s):
+        return s.m / s.rho
+
+    @ti.func
+    def even(self, i, j):
+        return self.share(j) / i.m
 
     @ti.func
     def Di(self, i, j, w, kernel: ti.template()):

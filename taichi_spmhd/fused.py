@@ -47,10 +47,12 @@ class Fused:
         return tuple(part for part in self.parts if part.has(hook))
 
     @traced
-    def weights(self, i, j):
-        """The pair's weights, with those some part asked for."""
-        w = self.choice.weights(i, j, named(self.pairs.between(i, j)), self.kernel)
-        more = {name: getattr(self.choice, name)(i, j, w, self.kernel) for name in self.extras}
+    def weights(self, i, j, choice=None):
+        """The pair's weights, with those some part asked for and this choice of density, if another one, offers."""
+        choice = choice or self.choice
+        w = choice.weights(i, j, named(self.pairs.between(i, j)), self.kernel)
+        extras = [name for name in self.extras if choice.offers(name)]
+        more = {name: getattr(choice, name)(i, j, w, self.kernel) for name in extras}
         return ti.Struct({**{name: getattr(w, name) for name in w.keys}, "e": named(w.e), **more})
 
     @traced
@@ -67,7 +69,7 @@ class Fused:
             i, total = self.pairs.mine(n, self.looked), self.lanes.totals(self.gathers)
             for block in range(rows[n] // self.lanes.width):
                 j = self.pairs.theirs(near, n, block, self.looked)
-                w = self.weights(i, j)
+                w = self.weights(i, j, self.choice.early)
                 for part in ti.static(self.gather_parts):
                     self.ready(j, part)
                     total.add(part.gather(i, j, w), part)

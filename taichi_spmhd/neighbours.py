@@ -1,6 +1,7 @@
 """The padded neighbour list, one fixed-width row a particle, shared by every sum of a step and kept while it is valid.
 
-Particle j is in the row of i if, at the build, r < pad * support * max(h_i, h_j). The list stays valid as long as
+Particle j is in the row of i if, at the build, r < pad * support * max(h_i, h_j); the support is the kernel's, or what
+the pairs of the density's choice reach (`reach`). The list stays valid as long as
 
     support * h_i + d_i + max_j d_j <= pad * support * h0_i        for all i,
 
@@ -28,8 +29,9 @@ STORY = ("builds", "age", "pad", "used")
 class Neighbours(Search):
     """Builds the list and knows whether it still holds."""
 
-    def __init__(self, particles: Particles, box, boundary, kernel):
-        super().__init__(particles, box, boundary, kernel.support, kernel.neighbours * PADS[0] ** particles.dim)
+    def __init__(self, particles: Particles, box, boundary, kernel, reach: float = 1.0):
+        expected = kernel.neighbours * (reach * PADS[0]) ** particles.dim
+        super().__init__(particles, box, boundary, reach * kernel.support, expected)
         self.kernel = kernel
         self.walls = [{image[a] for image in boundary.images} for a in range(3)]
         self.half = min((room for a in range(self.dim) if (room := boundary.room(a, box.size[a]))), default=1e30)

@@ -21,6 +21,7 @@ from .terms import Term
 from .terms.compression import Compression
 from .terms.frozen_ends import FrozenEnds
 from .terms.radiated import Radiated
+from .terms.volume_slope import VolumeSlope
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,7 +80,8 @@ class Scene:
         parts += (Radiated().among(parts),) if isinstance(self.eos, Radiating) else ()
         closing = (Compression(),) if any("closing" in part.sums for part in parts) else ()
         ends = (FrozenEnds().among(parts),) if self.boundary.frozen else ()
-        return in_order((*parts, *closing, *ends))
+        curved = (VolumeSlope(self.density),) if self.density.slope == "cubic" else ()
+        return in_order((*parts, *closing, *ends, *curved))
 
     def sketch(self) -> str:
         """Terms, choices and box in one line: what a saved state must agree with."""

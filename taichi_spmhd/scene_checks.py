@@ -9,6 +9,7 @@ from .boundary import Boundary
 from .density import Summation
 from .energy import Energy
 from .errors import InputError
+from .godunov.between import BETWEEN
 from .guard import Guard
 from .kernels import Kernel
 from .stepper import Stepper
@@ -92,6 +93,21 @@ def check(scene: "Scene") -> None:
     check_reference(scene)
     check_members(scene)
     check_steps(scene)
+    check_weights(scene)
+
+
+def check_weights(scene: "Scene") -> None:
+    """Weights that interpolate between a pair are for Riemann problems, on a cubic in one dimension and without B."""
+    slope, names = scene.density.slope, [type(term).__name__ for term in scene.terms]
+    if slope not in BETWEEN:
+        return
+    said = f'Scene: {type(scene.density).__name__}(slope="{slope}")'
+    if not {"GodunovHydro", "GodunovMHD"} & set(names):
+        raise InputError(f'{said} weighs Riemann problems: list GodunovHydro(), or give slope="variational"')
+    if slope == "cubic" and scene.dim > 1:
+        raise InputError(f'{said} is for one dimension, particles would clump in {scene.dim}: give slope="linear"')
+    if slope == "cubic" and "GodunovMHD" in names:
+        raise InputError(f'{said} is for a gas without a field: give slope="own" with GodunovMHD()')
 
 
 def check_steps(scene: "Scene") -> None:

@@ -62,7 +62,8 @@ class Simulation(Readable):
         p.companions.append((p.old, p.rate))
         self.sliding = None if spare is None else Sliding((*parts, scene.stepper), p.tree)
         p.finish()
-        self.neighbours, self.watch = Neighbours(p, scene.box, scene.boundary, kernel), Watch(p)
+        self.watch = Watch(p)
+        self.neighbours = Neighbours(p, scene.box, scene.boundary, kernel, scene.density.reach)
         self.pairs = Pairs(p, scene.box, scene.boundary, lanes())
         self.one_by_one = Pairs(p, scene.box, scene.boundary, 1)  # what is measured once a frame: compiles much faster
         self.density = Density(p, self.pairs, kernel, scene.density)

@@ -94,7 +94,7 @@ def check_start(x: np.ndarray, values: dict) -> None:
 def check_box(scene, kernel, n: int) -> None:
     """A periodic box holds two supports along every axis, or a pair would meet twice."""
     spacing = (scene.box.volume / n) ** (1 / scene.dim)
-    support = kernel.support * kernel.h_fact * spacing
+    support = scene.density.reach * kernel.support * kernel.h_fact * spacing
     for a in range(scene.dim):
         if scene.boundary.periodic[a] and scene.box.size[a] < 2 * support:
             raise InputError(

@@ -90,7 +90,7 @@ def arrange(scene: Scene, found: Background, lattice: str | None) -> Patch:
     hops = 3 if any(part.has("gather") for part in scene.parts) else 2
     volume = scene.box.volume / len(scene.positions)
     name = lattice or recognised(scene.positions, found.spot, scene.box)
-    return patch(name, scene.dim, volume, hops * kernel.support * kernel.h_fact, kernel)
+    return patch(name, scene.dim, volume, hops * scene.density.reach * kernel.support * kernel.h_fact, kernel)
 
 
 def gas_of(sim: Simulation, found: Background) -> Gas:

@@ -9,7 +9,7 @@ A part is a frozen dataclass. Everything below is optional.
     gathers  {name: type}    neighbour sums its `gather` returns
     sums     {name: type}    sums over pairs its `pair` returns beside rates, for an `after`
     mosts    {name: type}    numbers of which its `most` gives each particle's, and `now` holds the largest
-    weighs   (name, ...)     weights beside w.e, w.r, w.Gi, w.Gj that its `pair` uses (density.py: F, near)
+    weighs   (name, ...)     weights beside w.e, w.r, w.Gi, w.Gj that its `pair` uses (density.py: F, near, shift)
     together (name, ...)     members its `pair` loads of every neighbour, if they are many: they lie side by side then
     rank     number          parts of higher rank open, and run `after`, later
     live     {name: (low, high)}   numbers that may slide while a live run goes on, and the range that teaches something
