@@ -16,7 +16,8 @@ class Particles:
     Record n is nobody, who fills the neighbour rows up to whole vectors: without mass from the start (fields are zero
     when they are made), and with the other members of particle 0 from the first evaluation on.
 
-    members, evolved: {name: type name}; together: members that lie first, side by side. Everything lives in one field tree, which `close` gives back.
+    members, evolved: {name: type name}; together: members that lie first, side by side. Everything lives in one field
+    tree, which `close` gives back.
     """
 
     def __init__(self, n: int, dim: int, members: dict, evolved: dict, together: tuple = ()):
