@@ -19,16 +19,20 @@ COLUMNS = 6  # x, y, z, 1/h, m, P
 MARGIN = 1.6  # rates whose lanes are taken apart take 2.9 times as long in full MHD; noise moved the ratios by 3 %
 
 # rates/yardstick by `spmhd bench --quick --threads 1`, 2026-11-26, Taichi 1.7.4, AMD EPYC (Zen 4, AVX-512): the middle
-# of three rounds, minima of interleaved repeats each.
+# of three rounds, minima of interleaved repeats each. godunov: one round, 2026-11-27.
 EXPECTED = {
     "mhd3d_f64": 2.74,
     "mhd2d_f64": 2.65,
     "hydro3d_f64": 1.88,
     "hydro2d_f64": 1.71,
+    "godunov3d_f64": 10.5,
+    "godunov2d_f64": 8.6,
     "mhd3d_f32": 2.69,
     "mhd2d_f32": 2.28,
     "hydro3d_f32": 1.73,
     "hydro2d_f32": 1.52,
+    "godunov3d_f32": 8.8,
+    "godunov2d_f32": 6.8,
 }
 
 
