@@ -5,11 +5,11 @@
 (lecture pp. 4, 10-11, 38-39; Springel & Hernquist 2002, Price 2012). Terms see the choice only through w.Gi and w.Gj.
 """
 
-from dataclasses import dataclass, replace
-from math import sqrt
+from dataclasses import dataclass
 
 from .errors import InputError
-from .godunov.between import BETWEEN, spread
+from .godunov.between import BETWEEN
+from .godunov.weighing import Between
 from .runtime import ti
 from .terms.base import Choice
 
@@ -17,7 +17,7 @@ SLOPES = ("variational", "own", "mean", *BETWEEN)
 
 
 @dataclass(frozen=True)
-class Summation(Choice):
+class Summation(Between, Choice):
     """What both estimates share: a particle's share in the sum, the density that follows, and the pair's weights.
 
     tolerance: relative accuracy of h (measured: 1e-5 at the default 1e-4); 1e-10 where identities are tested in f64.
@@ -44,20 +44,6 @@ class Summation(Choice):
         if self.slope not in SLOPES:
             raise InputError(f"{name}: slope = {self.slope!r}; give one of {', '.join(SLOPES)}")
 
-    @property
-    def reach(self) -> float:
-        """How far pairs reach, in supports of the kernel."""
-        return sqrt(2.0) if self.slope in BETWEEN else 1.0
-
-    @property
-    def early(self) -> "Summation":
-        """What weighs the pairs of `gather`: there nobody knows yet what is between them."""
-        return replace(self, slope="own") if self.slope in BETWEEN else self
-
-    def offers(self, weight: str) -> bool:
-        """Whether this choice has a weight that a part asks for."""
-        return weight != "shift" or self.slope in BETWEEN
-
     @ti.func
     def g(self, slope, Omega, rho):
         """The member g, what a particle has to the slopes of its pairs; slope = sigma/h^(d+1)."""
@@ -81,29 +67,6 @@ class Summation(Choice):
             own, other = self.masses(i, j)
             at_i, at_j = self.slopes(i, j, r, kernel)
             return ti.Struct(e=d * rinv, r=r, Gi=own * at_i, Gj=other * at_j)
-
-    @ti.func
-    def between(self, i, j, e, r, kernel: ti.template()):
-        """Gi and Gj of "linear" and "cubic"."""
-        even, q_i, q_j = self.even(i, j), r * i.hinv, r * j.hinv
-        V = BETWEEN[self.slope].curve(i, j, self.room(i), self.room(j), e, r)
-        at_i, at_j = self.wide(i, q_i, kernel), self.wide(j, q_j, kernel)
-        return (
-            even * at_i * BETWEEN[self.slope].square(V, spread(q_i)),
-            even * at_j * BETWEEN[self.slope].square(V, spread(q_j)),
-        )
-
-    @ti.func
-    def wide(self, s, q, kernel: ti.template()):
-        """W'(r, sqrt(2) h), q = r/h"""
-        return s.g * s.rho * s.rho * ti.static(0.5 ** (0.5 * (kernel.dim + 1))) * kernel.df(q * ti.static(sqrt(0.5)))
-
-    @ti.func
-    def shift(self, i, j, w, kernel: ti.template()):
-        """2 s*/r at the mean h: from -1, where the Riemann problem of the pair is at j, to 1, where it is at i."""
-        V = BETWEEN[self.slope].curve(i, j, self.room(i), self.room(j), w.e, w.r)
-        t = spread(2.0 * w.r / (i.h + j.h))
-        return ti.max(ti.min(BETWEEN[self.slope].moment(V, t) / BETWEEN[self.slope].square(V, t), 1.0), -1.0)
 
     @ti.func
     def slopes(self, i, j, r, kernel: ti.template()):
