@@ -66,6 +66,8 @@ def translated(term, numbers: dict):
         return known.GodunovHydro(**numbers)
     if is_a(term, "Stress"):
         return known.GodunovMHD(**numbers)
+    if is_a(term, "Induction"):
+        return known.Induction()
     if is_a(term, "Hyperbolic") and not is_a(term, "ConstantCleaning"):
         return known.ConstantCleaning(f_clean=max(1.0, term.f_clean))
     return term

@@ -1,4 +1,4 @@
-"""What a choice of density needs to weigh pairs with Inutsuka's V_ij^2: reach, weights and the shift of the interface."""
+"""What a choice of density needs to weigh pairs with Inutsuka's V_ij^2: reach, weights, the shift of the interface."""
 
 from dataclasses import replace
 from math import sqrt
