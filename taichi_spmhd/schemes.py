@@ -48,7 +48,8 @@ def with_scheme(
     unknown = set(numbers) - NUMBERS
     if unknown:
         raise InputError(f"with_scheme: {', '.join(sorted(unknown))} unknown; there are {', '.join(sorted(NUMBERS))}")
-    terms = tuple(translated(term, numbers) for term in scene.terms if not is_a(term, *DISSIPATION))
+    terms = [translated(term, numbers) for term in scene.terms if not is_a(term, *DISSIPATION)]
+    terms = tuple({type(term).__name__: term for term in terms}.values())  # two cleanings become one
     field = any(is_a(term, "Stress") for term in scene.terms) and not isinstance(scene.eos, Radiating)
     density = replace(scene.density, slope=slope)
     energy = Dual() if field else Thermal()
