@@ -3,8 +3,8 @@
 Shocks and current sheets, and div B errors that pile up without cleaning. Lecture pp. 24-25; Orszag & Tang 1979;
 compared with a grid run (Athena++, 512^2) at t = 0.5. SPMHD survives without cleaning thanks to xi, but h |div B| /
 |B| grows; hyperbolic cleaning keeps it small. The square lattice shares the symmetries of the flow: B errs less than
-from a hexagonal one. scheme=godunov smears less: at nx = 64 v errs by 23 and B by 16 % (standard: 25 and 18 %). It
-costs about 50 s on two cores.
+from a hexagonal one. scheme=godunov smears less, particle by particle: at nx = 64 v errs by 23 and B by 16 % (standard:
+25 and 18 %), in three times the seconds. It costs about 50 s on two cores.
 
     spmhd run orszag_tang --set nx=64
     spmhd run orszag_tang --set nx=64 scheme=godunov
