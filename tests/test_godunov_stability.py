@@ -34,6 +34,7 @@ def test_one_half_leaves_a_slow_growth_along_b_that_three_quarters_end(growth):
     assert growth(2, 1.0) < 1e-3  # measured 1e-6
 
 
+@pytest.mark.slow
 def test_to_first_order_more_is_needed(growth):
     assert growth(1, 0.5) == pytest.approx(0.039, abs=0.002)
     assert growth(1, 1.0) < 1e-3
