@@ -51,6 +51,7 @@ def test_at_a_low_beta_total_energy_runs_out_of_heat_and_dual_does_not():
         assert found["energy_drift"] == pytest.approx(found["energy_drift_predicted"], abs=1e-13)
 
 
+@pytest.mark.slow
 def test_where_heat_is_known_nothing_switches_and_all_is_as_with_total():
     with Simulation(noisy(Total(), 2.0, 0.1)) as total, Simulation(noisy(Dual(), 2.0, 0.1)) as dual:
         total.run()

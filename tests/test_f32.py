@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from conftest import disordered_scene
 
-from taichi_spmhd import Isothermal, SumVolume, Total, terms
+from taichi_spmhd import Isothermal, SumMass, SumVolume, TimeCentred, Total, terms
 from taichi_spmhd.simulation import Simulation
 from taichi_spmhd.terms import (
     Balsara,
@@ -17,6 +17,8 @@ from taichi_spmhd.terms import (
     ConstantCleaning,
     CullenDehnen,
     DivBSource,
+    GodunovHydro,
+    GodunovMHD,
     Induction,
     LectureViscosity,
     MinimalXi,
@@ -32,6 +34,7 @@ from taichi_spmhd.terms import (
     Viscosity,
 )
 
+GODUNOV = {"stepper": TimeCentred(), "density": SumMass(slope="mean", tolerance=1e-14)}
 SETS = {
     "source": (
         (Stress(), Induction(), DivBSource(xi=MinimalXi()), CullenDehnen(fast=True), Conductivity(v_sig="velocity")),
@@ -50,6 +53,8 @@ SETS = {
     ),
     "viscosity": ((Pressure(), Viscosity()), (), {"energy": Total()}),
     "isothermal": ((Pressure(), MorrisMonaghan()), (), {"eos": Isothermal(1.2)}),
+    "godunov": ((GodunovMHD(), Induction(), DivBSource()), (ConstantCleaning(),), {**GODUNOV, "energy": Total()}),
+    "godunov gas": ((GodunovHydro(),), (), GODUNOV),
 }
 
 

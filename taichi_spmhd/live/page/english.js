@@ -127,6 +127,8 @@ export const english = {
   "name.vw": "fastest signal",
   "part.Pressure": "Pressure force",
   "part.Stress": "Pressure and magnetic stress",
+  "part.GodunovHydro": "Pressure by Riemann problems",
+  "part.GodunovMHD": "Stress by Riemann problems",
   "part.Induction": "Induction",
   "part.Viscosity": "Artificial viscosity",
   "part.LectureViscosity": "Artificial viscosity (lecture)",

@@ -127,6 +127,8 @@ export const japanese = {
   "name.vw": "最大信号速度",
   "part.Pressure": "圧力勾配力",
   "part.Stress": "圧力とマクスウェル応力",
+  "part.GodunovHydro": "リーマン問題による圧力",
+  "part.GodunovMHD": "リーマン問題による応力",
   "part.Induction": "誘導方程式",
   "part.Viscosity": "人工粘性",
   "part.LectureViscosity": "人工粘性(講義の形)",
