@@ -70,20 +70,12 @@ class InductionOfB(Term):
 
 @known_as("Induction")
 @dataclass(frozen=True)
-class Carried(Term):
+class Carried(Induction):
     """b = B/rho is evolved and B = rho b follows; GodunovMHD says at what rate, from its characteristics."""
 
-    form: str = "B/rho"
-    reads, makes, evolves = {"rho": real, "b": vec3}, {"B": vec3}, {"b": vec3}
+    reads = {"rho": real, "b": vec3}
+    pair = None
 
     def __post_init__(self):
         if self.form != "B/rho":
             raise InputError('Induction: GodunovMHD evolves B/rho; leave out form="B"')
-
-    @ti.func
-    def open(self, i, now):
-        return ti.Struct(b=i.B / i.rho)
-
-    @ti.func
-    def close(self, i, now):
-        return ti.Struct(B=i.rho * i.b)
