@@ -1,7 +1,10 @@
 """The kernels that steppers are made of: prediction and correction, Runge-Kutta stages, and what is ill."""
 
+from math import inf
+
 from .pairs import Pairs
 from .runtime import ti
+from .terms.held import free
 
 
 @ti.func
@@ -14,8 +17,8 @@ def broken(x):
 class Advance:
     """The kernels steppers are made of. `free` is 0 for held particles, which only drift with their own velocity."""
 
-    def __init__(self, particles, pairs: Pairs, held: bool):
-        self.p, self.pairs, self.held = particles, pairs, held
+    def __init__(self, particles, pairs: Pairs):
+        self.p, self.pairs = particles, pairs
 
     @ti.func
     def ill(self, value, key: ti.template()):
@@ -33,10 +36,16 @@ class Advance:
     @ti.func
     def free(self, s, key: ti.template()):
         """Whether member `key` of this particle follows its rate: of the held ones only the ledger's do."""
-        free = ti.cast(1.0, float)
-        if ti.static(self.held and not key.startswith("leak")):
-            free -= ti.cast(s.held, float)
-        return free
+        if ti.static(key.startswith("leak")):
+            return ti.cast(1.0, float)
+        else:
+            return free(s)
+
+    @ti.func
+    def drift(self, n, s, r, dt):
+        """x += dt (v + dt/2 a), s and r the particle and its rates at the start."""
+        for a in ti.static(range(self.p.dim)):
+            self.p.state[n].x[a] = s.x[a] + dt * (s.v[a] + 0.5 * dt * self.free(s, "v") * r.v[a])
 
     @ti.func
     def renew(self, n, key: ti.template(), value):
@@ -53,8 +62,7 @@ class Advance:
         for n in range(self.p.n):
             s, r = self.p.state[n], self.p.rate[n]
             self.p.old[n] = r
-            for a in ti.static(range(self.p.dim)):
-                self.p.state[n].x[a] = s.x[a] + dt * (s.v[a] + 0.5 * dt * self.free(s, "v") * r.v[a])
+            self.drift(n, s, r, dt)
             for key in ti.static(r.keys):
                 value = s[key] + dt * self.free(s, key) * r[key]
                 if ti.static(key == "u"):
@@ -63,9 +71,12 @@ class Advance:
                 self.p.state.get_member_field(key)[n] = value
         return floors
 
-    @ti.kernel
     def bearable(self, loss: float) -> float:
         """The longest step that takes no more than this share of anybody's u, where u is evolved."""
+        return self.spared(loss) if {"u", "u_own"} & set(self.p.names) else inf
+
+    @ti.kernel
+    def spared(self, loss: float) -> float:
         longest = ti.cast(1e30, float)
         for n in range(self.p.n):
             for key in ti.static([name for name in ("u", "u_own") if name in self.p.names]):
@@ -80,8 +91,7 @@ class Advance:
         for n in range(self.p.n):
             s, r = self.p.state[n], self.p.rate[n]
             ill = 0
-            for a in ti.static(range(self.p.dim)):
-                self.p.state[n].x[a] = s.x[a] + dt * (s.v[a] + 0.5 * dt * self.free(s, "v") * r.v[a])
+            self.drift(n, s, r, dt)
             for key in ti.static(r.keys):
                 ill |= self.renew(n, key, s[key] + dt * self.free(s, key) * r[key])
             ti.atomic_max(found, ill * (n + 1))

@@ -7,7 +7,7 @@ from functools import wraps
 
 from .wide import SETTING
 
-NATIVE = ["sqrt", "floor", "ceil", "round", "add", "sub", "mul", "div", "truediv", "floordiv", "min", "max"]
+NATIVE = ["sqrt", "floor", "ceil", "round", "add", "sub", "mul", "div", "truediv", "floordiv"]
 NATIVE += ["bit_and", "bit_or", "bit_xor", "bit_shl", "bit_sar", "bit_not", "logical_and", "logical_or", "logic_not"]
 NATIVE += ["cmp_lt", "cmp_le", "cmp_gt", "cmp_ge", "cmp_eq", "cmp_ne"]
 

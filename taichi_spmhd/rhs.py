@@ -128,10 +128,7 @@ class RHS(Fused):
         longest = ti.cast(1e30, ti.f32)
         for n in range(self.p.n):
             i, now = self.p.state[n], self.moment.now(t, 0.0, most)
-            step = self.signal_step(i, i.vw)
-            for term in ti.static(self.dt_terms):
-                step = ti.min(step, term.max_dt(i, now))
-            ti.atomic_min(longest, ti.cast(step, ti.f32))
+            ti.atomic_min(longest, ti.cast(self.own_step(i, i.vw, now), ti.f32))
         return longest
 
     @ti.func
@@ -146,6 +143,14 @@ class RHS(Fused):
     @ti.func
     def signal_step(self, i, fastest):
         return self.stepper.cour * i.h / (ti.max(i.vw, fastest) + TINY)
+
+    @ti.func
+    def own_step(self, i, fastest, now):
+        """What needs no rates: C_cour h / v_sig and what the terms' max_dt allow."""
+        step = self.signal_step(i, fastest)
+        for term in ti.static(self.dt_terms):
+            step = ti.min(step, term.max_dt(i, now))
+        return step
 
     @ti.func
     def force_step(self, i, total):
@@ -163,9 +168,7 @@ class RHS(Fused):
     @ti.func
     def step_of(self, i, total, fastest, now):
         """min of C_cour h / v_sig, C_force sqrt(h / |dv/dt|), C_cool u / (-du/dt) and what the terms allow."""
-        step = ti.min(self.signal_step(i, fastest), self.force_step(i, total), self.heat_step(i, total))
-        for term in ti.static(self.dt_terms):
-            step = ti.min(step, term.max_dt(i, now))
+        step = ti.min(self.own_step(i, fastest, now), self.force_step(i, total), self.heat_step(i, total))
         for term in ti.static(self.sum_dt_terms):
             step = ti.min(step, term.longest(i, total, now))
         return step

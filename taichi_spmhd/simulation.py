@@ -68,7 +68,7 @@ class Simulation(Readable):
         self.one_by_one = Pairs(p, scene.box, scene.boundary, 1)  # what is measured once a frame: compiles much faster
         self.density = Density(p, self.pairs, kernel, scene.density)
         self.wire(self.right_hand_side(scene))
-        self.advance = Advance(p, self.pairs, bool(frozen))
+        self.advance = Advance(p, self.pairs)
 
     def right_hand_side(self, scene: Scene) -> RHS:
         """What evaluates the rates of a scene's terms on these particles."""
