@@ -40,7 +40,7 @@ class Total(Energy):
     def among(self, parts: tuple) -> "Total":
         """With the energy of the field where the scene has one, and the velocity that its terms work with."""
         field = any("B" in {**part.makes, **part.evolves} for part in parts)
-        return (MagneticTotal if field else Total)(any(getattr(part, "centred", False) for part in parts))
+        return (MagneticTotal if field else Total)(any(part.centred for part in parts))
 
     @ti.func
     def work(self, i, total, now):
@@ -76,18 +76,31 @@ class MagneticTotal(Total):
     sums = {"u": real, "b": vec3, "closing": real}
 
     @ti.func
+    def field(self, i):
+        """The energy of the field per mass."""
+        return 0.5 * i.B.dot(i.B) / i.rho
+
+    @ti.func
+    def left(self, i):
+        """What remains of E."""
+        return i.E - 0.5 * i.v.dot(i.v) - self.field(i)
+
+    @ti.func
+    def gain(self, i, total, now):
+        """dE/dt"""
+        return self.work(i, total, now) + total.u + i.B.dot(total.b) + 0.5 * i.B.dot(i.B) * total.closing
+
+    @ti.func
     def open(self, i, now):
-        return ti.Struct(E=0.5 * i.v.dot(i.v) + i.u + 0.5 * i.B.dot(i.B) / i.rho)
+        return ti.Struct(E=0.5 * i.v.dot(i.v) + i.u + self.field(i))
 
     @ti.func
     def close(self, i, now):
-        return ti.Struct(u=i.E - 0.5 * i.v.dot(i.v) - 0.5 * i.B.dot(i.B) / i.rho)
+        return ti.Struct(u=self.left(i))
 
     @ti.func
     def after(self, i, total, now):
-        return ti.Struct(
-            E=self.work(i, total, now) + total.u + i.B.dot(total.b) + 0.5 * i.B.dot(i.B) * total.closing,
-        )
+        return ti.Struct(E=self.gain(i, total, now))
 
 
 @dataclass(frozen=True)
@@ -100,9 +113,7 @@ class Dual(Total):
     in leak_E.
     """
 
-    centred: bool = False
     least: float = 1e-3
-    sums = {"u": real}
 
     def __post_init__(self):
         if not 0 <= self.least <= 1:
@@ -125,30 +136,24 @@ class MagneticDual(MagneticTotal):
 
     @ti.func
     def open(self, i, now):
-        return ti.Struct(E=0.5 * i.v.dot(i.v) + i.u + 0.5 * i.B.dot(i.B) / i.rho, u_own=i.u)
+        return ti.Struct(E=0.5 * i.v.dot(i.v) + i.u + self.field(i), u_own=i.u)
 
     @ti.func
-    def field(self, i):
-        """The energy of the field per mass."""
-        return 0.5 * i.B.dot(i.B) / i.rho
-
-    @ti.func
-    def left(self, i):
-        """What remains of E."""
-        return i.E - 0.5 * i.v.dot(i.v) - self.field(i)
+    def known(self, i):
+        """Whether what remains of E is more than its own error."""
+        return self.left(i) > self.least * self.field(i)
 
     @ti.func
     def close(self, i, now):
-        return ti.Struct(u=ti.select(self.left(i) > self.least * self.field(i), self.left(i), i.u_own))
+        return ti.Struct(u=ti.select(self.known(i), self.left(i), i.u_own))
 
     @ti.func
     def after(self, i, total, now):
-        E = self.work(i, total, now) + total.u + i.B.dot(total.b) + 0.5 * i.B.dot(i.B) * total.closing
-        return ti.Struct(E=E, u_own=i.P * total.closing)
+        return ti.Struct(E=self.gain(i, total, now), u_own=i.P * total.closing)
 
     @ti.func
     def settle(self, i, now):
         """Both energies agree again at the end of a step."""
         amiss = i.u - self.left(i)
-        taken = ti.select(self.left(i) > self.least * self.field(i), 0.0, 1.0)
+        taken = ti.select(self.known(i), 0.0, 1.0)
         return ti.Struct(E=i.E + amiss, leak_E=i.leak_E + amiss, u_own=i.u, switched=i.switched + taken)

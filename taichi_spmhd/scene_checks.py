@@ -112,7 +112,7 @@ def check_weights(scene: "Scene") -> None:
 
 def check_steps(scene: "Scene") -> None:
     """Rates that belong to a step as a whole, and the stepper that takes them so, come together."""
-    centred = [type(term).__name__ for term in scene.terms if getattr(term, "centred", False)]
+    centred = [type(term).__name__ for term in scene.terms if term.centred]
     if centred and not scene.stepper.centred:
         raise InputError(f"Scene: {centred[0]} centres its rates in the step itself: give stepper=TimeCentred()")
     if scene.stepper.centred and not centred:

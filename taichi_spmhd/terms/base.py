@@ -11,6 +11,7 @@ A part is a frozen dataclass. Everything below is optional.
     mosts    {name: type}    numbers of which its `most` gives each particle's, and `now` holds the largest
     weighs   (name, ...)     weights beside w.e, w.r, w.Gi, w.Gj that its `pair` uses (density.py: F, near, shift)
     together (name, ...)     members its `pair` loads of every neighbour, if they are many: they lie side by side then
+    centred  bool            whether its rates are those of a step as a whole, centred in time (stepper.TimeCentred)
     rank     number          parts of higher rank open, and run `after`, later
     live     {name: (low, high)}   numbers that may slide while a live run goes on, and the range that teaches something
 
@@ -63,6 +64,7 @@ class Part:
     mosts: dict = {}
     weighs: tuple = ()
     together: tuple = ()
+    centred: bool = False
     rank: int = 0
     live: dict = {}
 

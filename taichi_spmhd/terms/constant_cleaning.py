@@ -48,7 +48,7 @@ class ConstantCleaning(Hyperbolic):
     def among(self, parts: tuple) -> "ConstantCleaning":
         """The class that does what `frame` and `scaled` say, or the one for steps of a single evaluation."""
         super().among(parts)
-        if any(getattr(part, "centred", False) for part in parts):
+        if any(part.centred for part in parts):
             return CentredCleaning(self.alpha, self.f_clean, self.C_CFL, self.frame, self.scaled)
         kind = KINDS[self.frame, bool(self.scaled)]
         return kind(self.alpha, self.f_clean, self.C_CFL, self.frame, self.scaled)

@@ -19,7 +19,7 @@ class Radiated(Part):
 
     def among(self, parts: tuple) -> "Radiated":
         """For the scene's steps: of several evaluations, or of one."""
-        if not any(getattr(part, "centred", False) for part in parts):
+        if not any(part.centred for part in parts):
             return self
         field = any("B" in {**part.makes, **part.evolves} for part in parts)
         return (MagneticRadiatedInSteps if field else RadiatedInSteps)()
