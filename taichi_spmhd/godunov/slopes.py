@@ -54,8 +54,7 @@ class Slopes:
     def gathered(self, i, sums, now):
         inverse = self.inverse(self.matrix(i, sums))
         found = {name: self.turned(inverse, i.rho, getattr(sums, name)) for name in self.gradients}
-        slopes = ti.Struct(found)
-        return ti.Struct({**found, **self.middle(i, slopes, 0.5 * now.dt)})
+        return ti.Struct({**found, **self.middle(i, ti.Struct(found), 0.5 * now.dt)})
 
     @ti.func
     def turned(self, inverse, rho, raw):
@@ -82,9 +81,10 @@ class Slopes:
     @traced
     def middle(self, i, slopes, half) -> dict:
         """The members of the middle of the step, unpredicted where half a step would change P or rho too much."""
-        ahead = self.predicted(i, slopes, half)
-        names = ("P", "rho", *self.fields)
-        return {f"{name}_mid": self.chosen(ahead.trusted, getattr(ahead, name), getattr(i, name)) for name in names}
+        closing = ti.lang.impl.expr_init(half * self.divergence(slopes))
+        gas, ahead = self.squeezed(i, closing), self.predicted(i, slopes, half, closing)
+        made = {"P": gas.P, "rho": gas.rho, **{name: getattr(ahead, name) for name in self.fields}}
+        return {f"{name}_mid": self.chosen(gas.trusted, value, getattr(i, name)) for name, value in made.items()}
 
     @ti.func
     def chosen(self, trusted, ahead, now):
@@ -101,6 +101,7 @@ class Slopes:
         return div
 
     @ti.func
-    def moderate(self, closing):
-        """Whether the predicted P and rho keep more than 0.3 of themselves: P changes gamma times as much as rho."""
-        return self.law.law.gamma * ti.abs(closing) < 0.7
+    def squeezed(self, i, closing):
+        """drho/dt = - rho div v,   dP/dt = - gamma P div v;   trusted while both keep more than 0.3 of themselves"""
+        more = self.riemann.law.gamma * closing  # P changes gamma times as much as rho
+        return ti.Struct(P=i.P * (1.0 - more), rho=i.rho * (1.0 - closing), trusted=ti.abs(more) < 0.7)

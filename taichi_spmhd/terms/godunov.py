@@ -17,13 +17,13 @@ class Godunov(Term):
     """The gas between a pair of particles is a Riemann problem: its star state pushes both, and heats what shocks heat.
 
     order: 1 or 2. limiter: "II11", "minmod" or "none". C_shock: pairs that approach faster than c/C_shock are treated
-    to first order. law, gamma, dim: known when the scene is; leave them out.
+    to first order. riemann, dim: known when the scene is; leave them out.
     """
 
     order: int = 2
     limiter: str = "II11"
     C_shock: float = 3.0
-    law: object = None
+    riemann: object = None
     dim: int = 0
     live = {"C_shock": (0.5, 10.0)}
     centred = True
@@ -50,7 +50,7 @@ class Godunov(Term):
                 raise InputError(f"terms: {own} contains what {name} does, or cannot work with it; leave out {name}")
         eos = next(part for part in parts if isinstance(part, Adiabatic | Radiating))
         made = self.orders()[self.order](self.order, self.limiter, self.C_shock)
-        return replace(made, law=self.waves(eos))
+        return replace(made, riemann=self.waves(eos))
 
     def smooth(self) -> "Godunov":
         """Slopes as they are: a limiter is not linear, however small the wave."""

@@ -40,7 +40,7 @@ class GodunovHydro(Godunov):
     @ti.func
     def side(self, s, P, v):
         """A side of the problem."""
-        rho = self.law.law.density(self.density(s), P, self.pressure(s) / self.density(s))
+        rho = self.riemann.law.density(self.density(s), P, self.pressure(s) / self.density(s))
         return ti.Struct(rho=rho, P=P, b2=0.0, v=v)
 
     @traced
@@ -53,7 +53,7 @@ class GodunovHydro(Godunov):
     @ti.func
     def pair(self, i, j, w, now):
         R, L = self.sides(i, j, w, self.kept(i, j, w))
-        P, v = self.law.star(L, R)
+        P, v = self.riemann.star(L, R)
         push = -P * (w.Gi + w.Gj)
         return ti.Struct(push=push * w.e, heat=push * (v - i.v.dot(w.e)))
 
@@ -74,10 +74,9 @@ class SecondOrderHydro(SecondOrder, GodunovHydro):
     """Riemann problems of limited states in the middle of the step."""
 
     @ti.func
-    def predicted(self, i, slopes, half):
-        """drho/dt = - rho div v,   dP/dt = - gamma P div v,   dv/dt = - grad P/rho"""
-        closing, v = half * self.divergence(slopes), i.v
+    def predicted(self, i, slopes, half, closing):
+        """dv/dt = - grad P/rho"""
+        v = i.v
         for a in ti.static(range(self.dim)):
             v[a] -= half * slopes.dP[a] / i.rho
-        P = i.P * (1.0 - self.law.law.gamma * closing)
-        return ti.Struct(P=P, rho=i.rho * (1.0 - closing), v=v, trusted=self.moderate(closing))
+        return ti.Struct(v=v)
