@@ -160,6 +160,7 @@ def test_in_three_dimensions_too(simulate):
     agrees(drifts(sim))
 
 
+@pytest.mark.slow
 def test_a_gas_in_three_dimensions_too(simulate):
     for drift in wandered(simulate(scene(GodunovHydro(), dim=3, density=SumMass(slope="own"))), steps=2):
         assert abs(drift["energy_drift"]) < ROUND_OFF and drift["momentum_drift"] < ROUND_OFF

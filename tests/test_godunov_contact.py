@@ -23,6 +23,7 @@ def blips(scheme: str, label: str, t_end: float, **parameters) -> tuple[float, f
         return blip(sim.run())
 
 
+@pytest.mark.slow
 def test_by_mass_the_blip_is_smaller_in_godunovs_scheme_and_by_volume_there_is_none():
     # the lattice starts with the noise of a tenth of a spacing: that is what is left away from the contact
     standard, godunov = (blips(scheme, "density by mass", 0.5, nx=32)[0] for scheme in ("standard", "godunov"))

@@ -227,7 +227,7 @@ class Linear:
         return self.sim
 
 
-@pytest.mark.parametrize(("dim", "slope"), [(1, "own"), (2, "own"), (3, "mean")])
+@pytest.mark.parametrize(("dim", "slope"), [(1, "own"), (2, "own"), pytest.param(3, "mean", marks=pytest.mark.slow)])
 def test_gradients_of_linear_fields_are_exact(linear_gas, dim, slope):
     gas = linear_gas(dim, slope)
     sim, inside = gas.at(0.0), gas.inside

@@ -34,7 +34,8 @@ def after_a_while(box, x, boundary, magnetic: bool) -> dict:
         return sim.columns()
 
 
-@pytest.mark.parametrize("magnetic", [False, pytest.param(True, marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.parametrize("magnetic", [False, True])
 def test_walls_do_what_a_mirrored_gas_does(magnetic):
     x = jitter(square(WALLS, 12), WALLS, 0.2, seed=1)
     x = np.clip(x, 0.01, 0.99)

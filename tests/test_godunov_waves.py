@@ -80,6 +80,7 @@ def gaps(scene, *times: float) -> list[float]:
         return [sim.run(until=t).summary()["mean_gap"] for t in times]
 
 
+@pytest.mark.slow
 def test_it_clumps_at_xi_0_only():
     # measured at t = 0.7: 0.62; and at t = 1 with P/B^2 = 0.001: 1.0735
     assert gaps(wave("xi = 0"), 0.7)[0] < 0.8

@@ -105,7 +105,12 @@ def run_in_godunovs_scheme(scene) -> None:
     assert summary["energy_drift"] == pytest.approx(summary["energy_drift_predicted"], abs=1e-4 if cleans else 1e-12)
 
 
-@pytest.mark.parametrize("name", sorted(GODUNOV))
+FIRST = {"alfven_tensile", "contact_gap", "hii_shell", "orszag_tang", "sod"}  # one of each kind; the rest is slow
+
+
+@pytest.mark.parametrize(
+    "name", [name if name in FIRST else pytest.param(name, marks=pytest.mark.slow) for name in sorted(GODUNOV)]
+)
 def test_the_last_variant_of_each_scene_runs_in_godunovs_scheme(name):
     run_in_godunovs_scheme(list(load_scene(name, **{**SMALL[name], **GODUNOV[name]}, scheme="godunov").values())[-1])
 
