@@ -2,6 +2,7 @@ from dataclasses import dataclass
 
 from ..eos import Radiating
 from ..godunov.across import across
+from ..godunov.areas import CorrectedAreas
 from ..godunov.characteristics import crossed, sign
 from ..godunov.hugoniot import Hugoniot, Isothermal
 from ..godunov.riemann import Riemann
@@ -35,8 +36,9 @@ class GodunovMHD(Godunov):
     fields = ("v", "B")
     beside = ("Induction", "DivBSource", "ConstantCleaning", "PassiveDensity")
 
-    def orders(self) -> dict:
-        return {1: FirstOrderMHD, 2: SecondOrderMHD}
+    def forms(self) -> dict:
+        """{(order, areas): class}"""
+        return {(1, "plain"): FirstOrderMHD, (2, "plain"): SecondOrderMHD, (2, "corrected"): CorrectedMHD}
 
     def waves(self, eos) -> object:
         """The Riemann problem of this gas."""
@@ -54,25 +56,27 @@ class GodunovMHD(Godunov):
         return ti.Struct(rho=rho, P=P + 0.5 * b2, b2=b2, v=v.x, root=ti.sqrt(rho), v_perp=v, B_perp=B)
 
     @traced
-    def sides(self, i, j, w, keep):
+    def sides(self, i, j, w, n, keep):
         """R and L: i and j."""
-        axes = (w.e, *across(w.e))
+        axes = (n, *across(n))
         pressures = self.pressures(i, j, w, keep)
         v, B = (self.vectors(name, i, j, w, axes, keep) for name in self.fields)
         return tuple(self.side(*four) for four in zip((i, j), pressures, v, B, strict=True))
 
     @ti.func
     def pair(self, i, j, w, now):
-        R, L = self.sides(i, j, w, self.kept(i, j, w))
-        along_i, along_j = self.field(i).dot(w.e), self.field(j).dot(w.e)
-        mean, F = 0.5 * (along_i + along_j), w.Gi + w.Gj
+        n, F = self.face(i, j, w)
+        R, L = self.sides(i, j, w, n, self.kept(i, j, w))
+        along_i, along_j = self.field(i).dot(n), self.field(j).dot(n)
+        mean = 0.5 * (along_i + along_j)
         P, vn = self.riemann.star(L, R)
-        first, second = across(w.e)
+        first, second = across(n)
         B1, v1 = crossed(L.root, R.root, sign(mean), L.v_perp.y, R.v_perp.y, L.B_perp.y, R.B_perp.y)
         B2, v2 = crossed(L.root, R.root, sign(mean), L.v_perp.z, R.v_perp.z, L.B_perp.z, R.B_perp.z)
-        past = vn * w.e + v1 * first + v2 * second - i.v
-        push = (mean * (B1 * first + B2 * second) - (P - 0.25 * (along_i * along_i + along_j * along_j)) * w.e) * F
-        return ti.Struct(push=push, heat=push.dot(past), carried=(mean * F) * past, S=mean * F)
+        past = vn * n + v1 * first + v2 * second - i.v
+        push = (mean * (B1 * first + B2 * second) - (P - 0.25 * (along_i * along_i + along_j * along_j)) * n) * F
+        S = self.through(i, j, w, mean, F)
+        return ti.Struct(push=push, heat=push.dot(past), carried=S * past, S=S)
 
     @ti.func
     def after(self, i, total, now):
@@ -116,3 +120,9 @@ class SecondOrderMHD(SecondOrder, GodunovMHD):
             v[a] -= half / i.rho * (slopes.dP[a] + i.B.dot(dB))
             B += half * i.B[a] * dv
         return ti.Struct(v=v, B=B)
+
+
+@known_as("GodunovMHD")
+@dataclass(frozen=True)
+class CorrectedMHD(CorrectedAreas, SecondOrderMHD):
+    """Of second order, through corrected areas."""
