@@ -1,4 +1,4 @@
-"""Corrected areas of the pairs: what they sum to, conservation, mirrors, surfaces, and what they win in two problems."""
+"""Corrected areas of the pairs: what they sum to, conservation, mirrors, surfaces, what they win in two problems."""
 
 import numpy as np
 import pytest
@@ -137,73 +137,80 @@ def mirrored(x):
     return {"rho": 1.0, "P": 1 + 0.5 * np.sin(3 * a) * np.cos(2 * b + c), "v": v, "B": B}
 
 
-def after(box, x, boundary, magnetic, steps=3, dt=0.005) -> dict:
+def after(box, x, boundary, magnetic, steps, dt) -> dict:
     terms = (Stress(), Induction(), DivBSource(0.5)) if magnetic else (Pressure(),)
 
     def start(x):
         return {name: value for name, value in mirrored(x).items() if magnetic or name != "B"}
 
-    made = Scene(box, x, start, terms, boundary=boundary)
+    made = Scene(box, x, start, terms, boundary=boundary, density=SumMass(tolerance=1e-12))
     with Simulation(with_scheme(made, "godunov", areas="corrected")) as sim:
         for _ in range(steps):
             sim.step(dt)
         return sim.columns()
 
 
-WALLED = [(2, False), pytest.param(2, True, marks=pytest.mark.slow), pytest.param(3, True, marks=pytest.mark.slow)]
-
-
-@pytest.mark.parametrize(("dim", "magnetic"), WALLED)
-def test_walls_do_what_a_mirrored_gas_does(dim, magnetic):
+def apart(dim, magnetic, steps, dt) -> dict:
+    """The largest differences between a gas within walls and the same gas with its mirror images, after some steps."""
     box, lattice, n = ((0.0, 1.0),) * dim, {2: square, 3: cubic}[dim], {2: 12, 3: 8}[dim]
     x = np.clip(jitter(lattice(box, n), box, 0.2, seed=1), 0.01, 0.99)
     walls = Boundary(**dict.fromkeys("xyz"[:dim], Reflecting()))
-    walled = after(box, x, walls, magnetic)
+    walled = after(box, x, walls, magnetic, steps, dt)
     images = np.concatenate([x * signs for signs in SIGNS[dim]])
-    whole = after(((-1.0, 1.0),) * dim, images, everywhere(), magnetic)
-    for name in ("x", "v", "P", "rho", *(("B",) if magnetic else ())):
-        # the same numbers in another order: measured 5e-13; rows of A^-1 that keep their sign in the mirror give 1e-3
-        assert np.abs(walled[name] - whole[name][: len(x)]).max() < 1e-10, name
+    whole = after(((-1.0, 1.0),) * dim, images, everywhere(), magnetic, steps, dt)
+    return {
+        name: np.abs(walled[name] - whole[name][: len(x)]).max()
+        for name in ("x", "v", "P", "rho", "B")
+        if name in whole
+    }
 
 
-def cloud(dim: int, n: int):
-    """Positions drawn at random in a ball that nothing surrounds, and two by themselves far away."""
+@pytest.mark.parametrize("magnetic", [False, pytest.param(True, marks=pytest.mark.slow)])
+def test_walls_do_what_a_mirrored_gas_does(magnetic):
+    found = apart(2, magnetic, steps=3, dt=0.005)
+    print(found)
+    # the same numbers in another order: measured 5e-13; rows of A^-1 that keep their sign in the mirror give XX
+    assert max(found.values()) < 1e-10
+
+
+@pytest.mark.slow
+def test_walls_in_three_dimensions(magnetic=False):
+    found = apart(3, False, steps=2, dt=0.001)
+    print(found)
+    assert max(found.values()) < 1e-10
+
+
+def cloud(dim: int):
+    """Positions drawn at random in a ball that nothing surrounds; two by themselves where a guard does not mind."""
     random = np.random.default_rng(1)
-    x = random.normal(size=(n, dim))
-    x *= random.uniform(0, 1, (n, 1)) ** (1 / dim) / np.linalg.norm(x, axis=1)[:, None]
-    return np.concatenate([x, np.array([[5.0], [5.1]]) * np.ones(dim)])
+    x = random.normal(size=(150, dim))
+    x *= random.uniform(0, 1, (150, 1)) ** (1 / dim) / np.linalg.norm(x, axis=1)[:, None]
+    return x if dim == 1 else np.concatenate([x, np.array([[5.0], [5.1]]) * np.ones(dim)])
 
 
 @pytest.mark.parametrize("dim", [pytest.param(1, marks=pytest.mark.slow), pytest.param(2, marks=pytest.mark.slow), 3])
 def test_a_cloud_in_empty_space_stays_finite_and_no_normal_looks_back(simulate, dim):
-    gas = {"mass": 0.01, "P": 1.0, "v": 0.1 * cloud(dim, 150)[:, [0, 0, 0]]}
+    gas = {"mass": 0.01, "P": 1.0, "v": 0.1 * cloud(dim)[:, [0, 0, 0]]}
     boundary = Boundary(**dict.fromkeys("xyz"[:dim], Open()))
     choices = {"boundary": boundary, "density": SumMass(slope="mean"), "stepper": TimeCentred()}
-    sim = simulate(Scene(((-20.0, 20.0),) * dim, cloud(dim, 150), lambda x: gas, GAS, **choices))
+    sim = simulate(Scene(((-20.0, 20.0),) * dim, cloud(dim), lambda x: gas, GAS, **choices))
     sim.begin()
     for _ in range(2):
         inverse = np.stack([sim[f"I{letter}"] for letter in "xyz"[:dim]], axis=1)
-        assert np.linalg.eigvalsh(inverse).min() > 0.1  # e.A^-1 e > 0, so n.e > 0; measured XX
-        assert np.abs(inverse).max() < 10 and (dim == 1 or (inverse[-2:] == np.eye(dim)).all())
+        stretch = np.linalg.eigvalsh(inverse)
+        print(dim, stretch.min(), stretch.max())
+        assert stretch.min() > 0.1 and stretch.max() < 10  # so e.A^-1 e > 0, and n.e > 0
+        assert dim == 1 or (inverse[-2:] == np.eye(dim)).all()  # two on one line: A is not inverted
         for _ in range(20):
             sim.step()
     assert all(np.isfinite(value).all() for value in sim.columns().values())
     drift = drifts(sim)
-    assert abs(drift["energy_drift"]) < ROUND_OFF and drift["momentum_drift"] < ROUND_OFF  # measured XX
-    print(
-        dim,
-        np.linalg.eigvalsh(inverse).min(),
-        np.abs(inverse).max(),
-        (inverse == np.eye(dim)).all(axis=(1, 2)).sum(),
-        drift,
-    )
+    assert abs(drift["energy_drift"]) < ROUND_OFF and drift["momentum_drift"] < ROUND_OFF  # measured 2e-16
 
 
-def test_plain_areas_leave_no_member():
-    plain, corrected = (
-        {n for part in scene(*terms).parts for n in part.at(2).makes} for terms in ((GodunovHydro(),), GAS)
-    )
-    assert corrected - plain == {"Ix", "Iy"}
+def test_only_corrected_areas_have_members():
+    made = [{n for part in scene(*terms).parts for n in part.at(2).makes} for terms in ((GodunovHydro(),), GAS)]
+    assert made[1] - made[0] == {"Ix", "Iy"} and not made[0] - made[1]
 
 
 REFUSED = {

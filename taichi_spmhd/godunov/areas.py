@@ -1,7 +1,7 @@
 """The area between a pair: (Gi + Gj) e, or one to which each side adds a share that is exact where P is linear.
 
-What a Godunov term asks for: `face`, the normal n of the Riemann problem and F, minus the area, so that a pressure
-pushes by P F n; and `through`, the field that passes between the pair.
+What a Godunov term asks for is the `face`: the normal n of the Riemann problem and F, minus the area, so that a
+pressure pushes by P F n.
 """
 
 from ..runtime import ti
@@ -24,19 +24,13 @@ class PlainAreas:
     def face(self, i, j, w):
         return w.e, w.Gi + w.Gj
 
-    @ti.func
-    def through(self, i, j, w, mean, F):
-        """Bn F of the induction and of the div B source."""
-        return mean * F
-
 
 class CorrectedAreas(PlainAreas):
     """a = A_i^-1 e Gi + A_j^-1 e Gj,   n = -a/|a|,   F = -|a|     (A: slopes.py)
 
     To be added before SecondOrder. a changes its sign with i and j: what one of the pair gains, the other loses. A is a
     sum of r e e with weights >= 0, so n.e > 0 however the particles lie. Where A is not inverted, in a corner say, the
-    share of that side is the plain one. B passes through (Gi + Gj) e as ever: with a there the div B source does ten
-    times the work (docs/godunov.md).
+    share of that side is the plain one.
     """
 
     @property
@@ -68,7 +62,3 @@ class CorrectedAreas(PlainAreas):
         upper = [getattr(s, name).parts for name in self.rows]
         rows = [Vector3(upper[min(a, b)][max(a, b)] for b in range(3)) for a in range(self.dim)]
         return named(Vector3([*(row.dot(e) for row in rows), 0.0, 0.0][:3]))
-
-    @ti.func
-    def through(self, i, j, w, mean, F):
-        return 0.5 * (self.field(i) + self.field(j)).dot(w.e) * (w.Gi + w.Gj)

@@ -18,8 +18,9 @@ class GodunovHydro(Godunov):
     Godunov SPH (lecture p. 22; Inutsuka 2002; Cha & Whitworth 2003): P* and v* solve the Riemann problem of the pair
     exactly, v^(1/2) = v + dt/2 dv/dt. No artificial viscosity or conductivity: shocks heat through P*. Momentum and
     energy are conserved to round-off for any dt. order=2: states from limited gradients, predicted to the middle of the
-    step; pairs that approach faster than c/C_shock fall back to order 1. Needs stepper=TimeCentred(); best with
-    SumMass(slope="mean").
+    step; pairs that approach faster than c/C_shock fall back to order 1. areas="corrected": n = -a/|a| and -|a| for
+    e and Gi + Gj, a = A_i^-1 e Gi + A_j^-1 e Gj with A of the gradients (godunov/areas.py). Needs
+    stepper=TimeCentred(); best with SumMass(slope="mean").
     """
 
     reads = {"P": real, "cs": real, "rho": real, "v": vec3}
