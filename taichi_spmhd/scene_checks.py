@@ -108,6 +108,8 @@ def check_weights(scene: "Scene") -> None:
         raise InputError(f'{said} is for one dimension, particles would clump in {scene.dim}: give slope="linear"')
     if slope == "cubic" and "GodunovMHD" in names:
         raise InputError(f'{said} is for a gas without a field: give slope="own" with GodunovMHD()')
+    if "corrected" in {getattr(term, "areas", "") for term in scene.terms}:
+        raise InputError(f'{said} weighs pairs as the gradients do not: give slope="mean" with areas="corrected"')
 
 
 def check_steps(scene: "Scene") -> None:

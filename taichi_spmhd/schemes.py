@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from .scene import Scene
 
 Scheme = Literal["standard", "godunov"]
-NUMBERS = {"order", "limiter", "C_shock"}
+NUMBERS = {"order", "limiter", "C_shock", "areas"}
 DISSIPATION = ("Viscosity", "LectureViscosity", "Conductivity", "Resistivity", "TriccoPrice2013")
 
 

@@ -54,7 +54,8 @@ class Slopes:
     def gathered(self, i, sums, now):
         inverse = self.inverse(self.matrix(i, sums))
         found = {name: self.turned(inverse, i.rho, getattr(sums, name)) for name in self.gradients}
-        return ti.Struct({**found, **self.middle(i, ti.Struct(found), 0.5 * now.dt)})
+        middle = self.middle(i, ti.Struct(found), 0.5 * now.dt)
+        return ti.Struct({**found, **middle, **self.remembered(inverse)})
 
     @ti.func
     def turned(self, inverse, rho, raw):

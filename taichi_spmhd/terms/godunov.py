@@ -5,6 +5,7 @@ from numbers import Real
 
 from ..eos import Adiabatic, Radiating
 from ..errors import InputError
+from ..godunov.areas import AREAS, PlainAreas
 from ..godunov.limiter import LIMITERS
 from ..guard import ours
 from ..runtime import ti
@@ -13,16 +14,18 @@ from .held import free
 
 
 @dataclass(frozen=True)
-class Godunov(Term):
+class Godunov(PlainAreas, Term):
     """The gas between a pair of particles is a Riemann problem: its star state pushes both, and heats what shocks heat.
 
     order: 1 or 2. limiter: "II11", "minmod" or "none". C_shock: pairs that approach faster than c/C_shock are treated
-    to first order. riemann, dim: known when the scene is; leave them out.
+    to first order. areas: "plain" or, with order=2, "corrected" (godunov/areas.py). riemann, dim: known when the scene
+    is; leave them out.
     """
 
     order: int = 2
     limiter: str = "II11"
     C_shock: float = 3.0
+    areas: str = "plain"
     riemann: object = None
     dim: int = 0
     live = {"C_shock": (0.5, 10.0)}
@@ -37,19 +40,25 @@ class Godunov(Term):
             raise InputError(f"{name}: limiter = {self.limiter!r}; give one of {', '.join(LIMITERS)}")
         if not (isinstance(self.C_shock, Real) and 0 <= self.C_shock <= 1e6):
             raise InputError(f"{name}: C_shock = {self.C_shock} must lie in 0..1e6; 3 is usual")
+        if not isinstance(self.areas, str) or self.areas not in AREAS:
+            raise InputError(f"{name}: areas = {self.areas!r}; give one of {', '.join(AREAS)}")
+        if (self.order, self.areas) not in self.forms():
+            raise InputError(f'{name}: areas="{self.areas}" needs gradients: give order=2, or leave areas out')
 
     def __str__(self) -> str:
-        return f'{type(self).__name__}(order={self.order}, limiter="{self.limiter}", C_shock={self.C_shock:g})'
+        areas = "" if self.areas == AREAS[0] else f', areas="{self.areas}"'
+        return f'{type(self).__name__}(order={self.order}, limiter="{self.limiter}", C_shock={self.C_shock:g}{areas})'
 
     def among(self, parts: tuple) -> "Godunov":
-        """The class that does what `order` says, with the waves of the scene's gas."""
+        """The class that does what `order` and `areas` say, with the waves of the scene's gas."""
         own = type(self).__name__
         for part in parts:
             name = type(part).__name__
             if isinstance(part, Term) and part is not self and ours(part) and name not in self.beside:
                 raise InputError(f"terms: {own} contains what {name} does, or cannot work with it; leave out {name}")
         eos = next(part for part in parts if isinstance(part, Adiabatic | Radiating))
-        made = self.orders()[self.order](self.order, self.limiter, self.C_shock)
+        form = self.forms()[self.order, self.areas]
+        made = form(self.order, self.limiter, self.C_shock, self.areas)
         return replace(made, riemann=self.waves(eos))
 
     def smooth(self) -> "Godunov":

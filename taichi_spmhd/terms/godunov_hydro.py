@@ -1,6 +1,7 @@
 from dataclasses import dataclass
 
 from ..eos import Radiating
+from ..godunov.areas import CorrectedAreas
 from ..godunov.rarefaction import ExactRiemann, Fan, IsothermalFan
 from ..godunov.states import FirstOrder, SecondOrder
 from ..runtime import ti
@@ -17,8 +18,9 @@ class GodunovHydro(Godunov):
     Godunov SPH (lecture p. 22; Inutsuka 2002; Cha & Whitworth 2003): P* and v* solve the Riemann problem of the pair
     exactly, v^(1/2) = v + dt/2 dv/dt. No artificial viscosity or conductivity: shocks heat through P*. Momentum and
     energy are conserved to round-off for any dt. order=2: states from limited gradients, predicted to the middle of the
-    step; pairs that approach faster than c/C_shock fall back to order 1. Needs stepper=TimeCentred(); best with
-    SumMass(slope="mean").
+    step; pairs that approach faster than c/C_shock fall back to order 1. areas="corrected": n = -a/|a| and -|a| for
+    e and Gi + Gj, a = A_i^-1 e Gi + A_j^-1 e Gj with A of the gradients (godunov/areas.py). Needs
+    stepper=TimeCentred(); best with SumMass(slope="mean").
     """
 
     reads = {"P": real, "cs": real, "rho": real, "v": vec3}
@@ -26,8 +28,9 @@ class GodunovHydro(Godunov):
     sums = {"push": vec3, "heat": real}
     fields, beside = ("v",), ("PassiveDensity",)
 
-    def orders(self) -> dict:
-        return {1: FirstOrderHydro, 2: SecondOrderHydro}
+    def forms(self) -> dict:
+        """{(order, areas): class}"""
+        return {(1, "plain"): FirstOrderHydro, (2, "plain"): SecondOrderHydro, (2, "corrected"): CorrectedHydro}
 
     def waves(self, eos) -> object:
         """The Riemann problem of this gas."""
@@ -44,18 +47,19 @@ class GodunovHydro(Godunov):
         return ti.Struct(rho=rho, P=P, b2=0.0, v=v)
 
     @traced
-    def sides(self, i, j, w, keep):
+    def sides(self, i, j, w, n, keep):
         """R and L: i and j."""
         pressures = self.pressures(i, j, w, keep)
-        velocities = self.vectors("v", i, j, w, (w.e,), keep)
+        velocities = self.vectors("v", i, j, w, (n,), keep)
         return tuple(self.side(s, P, v.x) for s, P, v in zip((i, j), pressures, velocities, strict=True))
 
     @ti.func
     def pair(self, i, j, w, now):
-        R, L = self.sides(i, j, w, self.kept(i, j, w))
+        n, F = self.face(i, j, w)
+        R, L = self.sides(i, j, w, n, self.kept(i, j, w))
         P, v = self.riemann.star(L, R)
-        push = -P * (w.Gi + w.Gj)
-        return ti.Struct(push=push * w.e, heat=push * (v - i.v.dot(w.e)))
+        push = -P * F
+        return ti.Struct(push=push * n, heat=push * (v - i.v.dot(n)))
 
     @ti.func
     def after(self, i, total, now):
@@ -80,3 +84,9 @@ class SecondOrderHydro(SecondOrder, GodunovHydro):
         for a in ti.static(range(self.dim)):
             v[a] -= half * slopes.dP[a] / i.rho
         return ti.Struct(v=v)
+
+
+@known_as("GodunovHydro")
+@dataclass(frozen=True)
+class CorrectedHydro(CorrectedAreas, SecondOrderHydro):
+    """Of second order, through corrected areas."""

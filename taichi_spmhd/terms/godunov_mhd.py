@@ -2,6 +2,7 @@ from dataclasses import dataclass
 
 from ..eos import Radiating
 from ..godunov.across import across
+from ..godunov.areas import CorrectedAreas
 from ..godunov.characteristics import crossed, sign
 from ..godunov.hugoniot import Hugoniot, Isothermal
 from ..godunov.riemann import Riemann
@@ -25,8 +26,10 @@ class GodunovMHD(Godunov):
 
     order=2: states from limited gradients, predicted to the middle of the step with all of the gradient tensors (along
     the pair's axis alone an Alfven wave in two dimensions would grow). Pairs that approach faster than c/C_shock are
-    treated to first order: without that B_n jumps by a quarter behind strong shocks. Needs stepper=TimeCentred() and
-    Induction(), which carries B; best with SumMass(slope="mean") and 20 or more neighbours (h_fact 1.2 in 2-D).
+    treated to first order: without that B_n jumps by a quarter behind strong shocks. areas="corrected": n = -a/|a| and
+    -|a| in place of e and Gi + Gj where v and E change, a = A_i^-1 e Gi + A_j^-1 e Gj with A of the gradients
+    (godunov/areas.py); best with h_fact 1.0 and C_shock=1. Needs stepper=TimeCentred() and Induction(), which carries
+    B; best with SumMass(slope="mean") and, with plain areas, 20 or more neighbours (h_fact 1.2 in 2-D).
     """
 
     reads = {"P": real, "cs": real, "rho": real, "v": vec3, "B": vec3}
@@ -35,8 +38,9 @@ class GodunovMHD(Godunov):
     fields = ("v", "B")
     beside = ("Induction", "DivBSource", "ConstantCleaning", "PassiveDensity")
 
-    def orders(self) -> dict:
-        return {1: FirstOrderMHD, 2: SecondOrderMHD}
+    def forms(self) -> dict:
+        """{(order, areas): class}"""
+        return {(1, "plain"): FirstOrderMHD, (2, "plain"): SecondOrderMHD, (2, "corrected"): CorrectedMHD}
 
     def waves(self, eos) -> object:
         """The Riemann problem of this gas."""
@@ -54,35 +58,47 @@ class GodunovMHD(Godunov):
         return ti.Struct(rho=rho, P=P + 0.5 * b2, b2=b2, v=v.x, root=ti.sqrt(rho), v_perp=v, B_perp=B)
 
     @traced
-    def sides(self, i, j, w, keep):
+    def sides(self, i, j, w, n, keep):
         """R and L: i and j."""
-        axes = (w.e, *across(w.e))
+        axes = (n, *across(n))
         pressures = self.pressures(i, j, w, keep)
         v, B = (self.vectors(name, i, j, w, axes, keep) for name in self.fields)
         return tuple(self.side(*four) for four in zip((i, j), pressures, v, B, strict=True))
 
     @ti.func
     def pair(self, i, j, w, now):
-        R, L = self.sides(i, j, w, self.kept(i, j, w))
-        along_i, along_j = self.field(i).dot(w.e), self.field(j).dot(w.e)
-        mean, F = 0.5 * (along_i + along_j), w.Gi + w.Gj
+        n, F = self.face(i, j, w)
+        R, L = self.sides(i, j, w, n, self.kept(i, j, w))
+        along_i, along_j = self.field(i).dot(n), self.field(j).dot(n)
+        mean = 0.5 * (along_i + along_j)
         P, vn = self.riemann.star(L, R)
-        first, second = across(w.e)
+        first, second = across(n)
         B1, v1 = crossed(L.root, R.root, sign(mean), L.v_perp.y, R.v_perp.y, L.B_perp.y, R.B_perp.y)
         B2, v2 = crossed(L.root, R.root, sign(mean), L.v_perp.z, R.v_perp.z, L.B_perp.z, R.B_perp.z)
-        past = vn * w.e + v1 * first + v2 * second - i.v
-        push = (mean * (B1 * first + B2 * second) - (P - 0.25 * (along_i * along_i + along_j * along_j)) * w.e) * F
-        return ti.Struct(push=push, heat=push.dot(past), carried=(mean * F) * past, S=mean * F)
+        past = vn * n + v1 * first + v2 * second - i.v
+        push = (mean * (B1 * first + B2 * second) - (P - 0.25 * (along_i * along_i + along_j * along_j)) * n) * F
+        S = mean * F
+        return ti.Struct(push=push, heat=push.dot(past), **self.passing(i, j, w, past, S))
+
+    @traced
+    def passing(self, i, j, w, past, S) -> dict:
+        """What the field between the pair adds to the sums."""
+        return {"carried": S * past, "S": S}
 
     @ti.func
     def after(self, i, total, now):
         """Rates from the sums: by then total.v has all other forces, and total.b what cleaning adds."""
         gain = self.gain(i, total, now)
-        b = total.carried - total.S * gain
+        b = total.carried - self.sent(total) * gain
         work = i.B.dot(b) + 0.5 * total.closing * i.B.dot(i.B)
         heat = total.heat - gain.dot(total.push) - work
         spare = 0.5 * i.rho * now.dt * total.b.dot(total.b)  # of the field's energy, quadratic in what cleaning adds
         return ti.Struct(v=total.push, b=b, u=heat, E=spare, leak_E=self.pull(total).dot(i.v + gain))
+
+    @ti.func
+    def sent(self, total):
+        """The sum that multiplies v_i in the induction."""
+        return total.S
 
     @ti.func
     def pull(self, total):
@@ -116,3 +132,24 @@ class SecondOrderMHD(SecondOrder, GodunovMHD):
             v[a] -= half / i.rho * (slopes.dP[a] + i.B.dot(dB))
             B += half * i.B[a] * dv
         return ti.Struct(v=v, B=B)
+
+
+@known_as("GodunovMHD")
+@dataclass(frozen=True)
+class CorrectedMHD(CorrectedAreas, SecondOrderMHD):
+    """Of second order, through corrected areas, but for the induction: Bn ( v* - v_i^(1/2) )( Gi + Gj ), Bn along e.
+
+    S is the div B that the force contains, as ever: with that of plain areas xi = 1/2 would not be enough at low beta.
+    """
+
+    sums = GodunovMHD.sums | {"through": real}
+
+    @traced
+    def passing(self, i, j, w, past, S) -> dict:
+        mean = 0.5 * (self.field(i) + self.field(j)).dot(w.e)
+        through = ti.lang.impl.expr_init(mean * (w.Gi + w.Gj))
+        return {"carried": through * past, "S": S, "through": through}
+
+    @ti.func
+    def sent(self, total):
+        return total.through
