@@ -11,7 +11,7 @@ costs about 15 s on two cores.
 
 import numpy as np
 
-from taichi_spmhd import Adiabatic, Picture, QuinticSpline, Scene, Scheme, hexagonal, in_scheme
+from taichi_spmhd import STIRRED, Adiabatic, Picture, Scene, Scheme, hexagonal, in_scheme
 from taichi_spmhd.terms import Conductivity, Pressure, Viscosity
 
 BOX = ((-0.5, 0.5), (-0.5, 0.5))
@@ -34,4 +34,4 @@ def scenes(nx: int = 128, t_end: float = 0.2, scheme: Scheme = "standard"):
         t_end=t_end,
         picture=Picture("rho", limits=(0.0, 3.0), draw="sph"),
     )
-    return in_scheme({"blast": scene}, scheme, kernel=QuinticSpline(h_fact=1.2))
+    return in_scheme({"blast": scene}, scheme, **STIRRED)

@@ -5,7 +5,7 @@ outside, B along x, P = 1. The wound-up field squeezes the disc into an oblong a
 the middle, thinned to rho = 1, turns as a solid body still, but ten times slower. Next to it B^2/2 rises to 2.8 (beta
 0.2): P must stay positive. Cleaning halves h |div B| / |B| and smooths the strongest field. Equal masses, so the disc
 is resolved three times better than the gas around it. scheme=godunov keeps the disc's rim sharper: at nx = 40 the
-largest rho is 9.5 (standard: 8.0). It costs about 100 s on two cores.
+largest rho is 10.2 (standard: 8.0). It costs about 100 s on two cores.
 
     spmhd run rotor --set nx=64
     spmhd run rotor --set nx=64 scheme=godunov
@@ -13,7 +13,7 @@ largest rho is 9.5 (standard: 8.0). It costs about 100 s on two cores.
 
 import numpy as np
 
-from taichi_spmhd import Adiabatic, Box, Picture, QuinticSpline, Scene, Scheme, hexagonal, in_scheme
+from taichi_spmhd import STIRRED, Adiabatic, Box, Picture, QuinticSpline, Scene, Scheme, hexagonal, in_scheme
 from taichi_spmhd.lattice import even, staggered
 from taichi_spmhd.terms import Cleaning, Conductivity, CullenDehnen, DivBSource, Induction, Resistivity, Stress
 
@@ -88,4 +88,4 @@ def scenes(nx: int = 100, t_end: float = 0.15, scheme: Scheme = "standard"):
         picture=Picture("B", limits=(0.0, 2.4), draw="sph"),
     )
     variants = {"without cleaning": bare, "with cleaning": bare.plus(Cleaning())}
-    return in_scheme(variants, scheme, kernel=QuinticSpline(h_fact=1.2))
+    return in_scheme(variants, scheme, **STIRRED)

@@ -27,7 +27,7 @@ try:
     from .render import snapshot as picture
     from .runtime import init
     from .scene import Scene
-    from .schemes import Scheme, in_scheme, with_scheme
+    from .schemes import STIRRED, Scheme, in_scheme, with_scheme
     from .simulation import Simulation
     from .stepper import SSPRK3, Heun, LeapfrogKDK, TimeCentred
     from .study import Anchor, Study
@@ -48,6 +48,7 @@ except PackageNotFoundError:  # run from a checkout that is not installed
 
 __all__ = [
     "SSPRK3",
+    "STIRRED",
     "Adiabatic",
     "Anchor",
     "Boundary",

@@ -7,6 +7,7 @@ from . import terms as known
 from .energy import Dual, Thermal
 from .eos import Radiating
 from .errors import InputError
+from .kernels import CubicSpline
 from .stepper import TimeCentred
 
 if TYPE_CHECKING:
@@ -15,6 +16,7 @@ if TYPE_CHECKING:
 
 Scheme = Literal["standard", "godunov"]
 NUMBERS = {"order", "limiter", "C_shock", "areas"}
+STIRRED = {"kernel": CubicSpline(h_fact=1.1), "areas": "corrected", "C_shock": 1.0, "cour": 0.5}
 DISSIPATION = ("Viscosity", "LectureViscosity", "Conductivity", "Resistivity", "TriccoPrice2013")
 
 
@@ -32,13 +34,19 @@ def in_scheme(variants: dict, scheme: Scheme, **choices) -> dict:
 
 
 def with_scheme(
-    scene: "Scene", scheme: Scheme, slope: str = "mean", kernel: "Kernel | None" = None, **numbers
+    scene: "Scene",
+    scheme: Scheme,
+    slope: str = "mean",
+    kernel: "Kernel | None" = None,
+    cour: float = TimeCentred.cour,
+    **numbers,
 ) -> "Scene":
     """The scene as it is ("standard"), or its gas by Riemann problems ("godunov").
 
     Godunov's takes the place of Pressure or Stress and of all artificial dissipation, steps once a step (TimeCentred),
     cleans with one c_h for all, and with a field evolves both energies (Dual). slope: of the pairs (SumMass); kernel:
-    that of the scene where none is given; numbers: of GodunovHydro or GodunovMHD, for example order=1. Raises
+    that of the scene where none is given; cour: the Courant number; numbers: of GodunovHydro or GodunovMHD, for example
+    areas="corrected". **STIRRED are the choices for gas that shocks stir in 2-D and 3-D (docs/godunov.md). Raises
     InputError for a scheme that does not exist.
     """
     if scheme not in ("standard", "godunov"):
@@ -51,9 +59,13 @@ def with_scheme(
     terms = [translated(term, numbers) for term in scene.terms if not is_a(term, *DISSIPATION)]
     terms = tuple({type(term).__name__: term for term in terms}.values())  # two cleanings become one
     field = any(is_a(term, "Stress") for term in scene.terms) and not isinstance(scene.eos, Radiating)
-    density = replace(scene.density, slope=slope)
-    energy = Dual() if field else Thermal()
-    return scene.but(terms=terms, density=density, kernel=kernel or scene.kernel, stepper=TimeCentred(), energy=energy)
+    return scene.but(
+        terms=terms,
+        density=replace(scene.density, slope=slope),
+        kernel=kernel or scene.kernel,
+        stepper=TimeCentred(cour=cour),
+        energy=Dual() if field else Thermal(),
+    )
 
 
 def is_a(term, *names: str) -> bool:

@@ -3,7 +3,7 @@
 textbook   the conservative equations as they stand, xi = 0, cubic spline: what the cures are needed for
 usual      quintic spline, xi = 1/2, viscosity by Cullen & Dehnen, cleaning: sharp, the scenes' own
 robust     Wendland C4, xi = 1/2, viscosity everywhere, cleaning: for what nobody has tried before
-godunov    Riemann problems and characteristics in place of all viscosity, Wendland C4, xi = 3/4, cleaning
+godunov    Riemann problems and characteristics in place of all viscosity, corrected areas, Wendland C4, xi = 3/4
 
 xi = 1/2 in the middle two: it makes the stress along B that of the gas alone, down to the lowest beta tried. xi = 1 has
 a margin for noise, but at a free surface its force takes the field that ends there for a source and blows particles
@@ -11,7 +11,7 @@ off. In Godunov's scheme waves along B grow at .006 v_A/dx with 1/2, and current
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from ..kernels import CubicSpline, Kernel, QuinticSpline, WendlandC4
 from ..scene import Scene
@@ -35,13 +35,14 @@ from .case import Problem
 
 @dataclass(frozen=True)
 class Preset:
-    """kernel and stepper; friction: what every gas has; cures: what a field needs beside Stress and Induction."""
+    """friction: what every gas has; cures: what a field needs beside Stress and Induction; choices: of the scheme."""
 
     about: str
     kernel: Kernel
     friction: Callable[[], tuple[Term, ...]]
     cures: Callable[[], tuple[Term, ...]]
     scheme: str = "standard"
+    choices: dict = field(default_factory=dict)
 
     def scene(self, problem: Problem) -> Scene:
         """The scene of a problem."""
@@ -60,7 +61,7 @@ class Preset:
             t_end=problem.t_end,
             **{**given, **problem.changes},
         )
-        return with_scheme(scene, self.scheme)
+        return with_scheme(scene, self.scheme, **self.choices)
 
 
 PRESETS = {
@@ -83,10 +84,11 @@ PRESETS = {
         lambda: (DivBSource(xi=0.5), Resistivity(), Cleaning()),
     ),
     "godunov": Preset(
-        "Wendland C4, xi = 3/4, Riemann problems, ConstantCleaning",
-        WendlandC4(),
+        "Wendland C4 (h_fact 1.3), xi = 3/4, Riemann problems through corrected areas, C_shock = 1, ConstantCleaning",
+        WendlandC4(h_fact=1.3),
         tuple,
         lambda: (DivBSource(xi=0.75), ConstantCleaning()),
         "godunov",
+        {"areas": "corrected", "C_shock": 1.0, "cour": 0.5},
     ),
 }
