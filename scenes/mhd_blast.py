@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from taichi_spmhd import STIRRED, Adiabatic, Picture, QuinticSpline, Scene, Scheme, hexagonal, in_scheme
+from taichi_spmhd import STIRRED, Adiabatic, Picture, QuinticSpline, Scene, Scheme, Study, hexagonal, in_scheme
 from taichi_spmhd.terms import (
     Cleaning,
     Conductivity,
@@ -30,6 +30,9 @@ BOX = ((-0.5, 0.5), (-0.5, 0.5))
 RADIUS, P_IN, P_OUT = 0.1, 10.0, 0.1
 
 REFERENCE = Path(__file__).parent / "reference" / "blast_mhd_t0.15_c128.npz"  # that grid run, in means of 128^2 cells
+STUDY = Study(  # for `spmhd cost`
+    {"nx": (32, 64, 128), "scheme": ("standard", "godunov")}, variants=("with cleaning",), error="v"
+)
 
 
 def scenes(

@@ -31,7 +31,11 @@ BOX = (1.0, 1.0)
 RHO, P, B0 = 25 / (36 * np.pi), 5 / (12 * np.pi), 1 / np.sqrt(4 * np.pi)
 
 REFERENCE = Path(__file__).parent / "reference" / "ot_t0.50_c128.npz"  # that grid run, in means of 128^2 cells
-STUDY = Study({"nx": (32, 64, 128)}, variants=("without cleaning", "with cleaning"), error="B")  # for `spmhd cost`
+STUDY = Study(  # for `spmhd cost`
+    {"nx": (32, 64, 128), "scheme": ("standard", "godunov")},
+    variants=("without cleaning", "with cleaning"),
+    error="B",
+)
 
 
 def start(x):

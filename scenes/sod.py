@@ -32,7 +32,13 @@ from taichi_spmhd.terms import Conductivity, Pressure, Viscosity
 LEFT, RIGHT, GAMMA = (1.0, 0.0, 1.0), (0.125, 0.0, 0.1), 1.4  # rho, v, P
 ROWS = 24  # of the dense side in 2-D: 16 would be narrower than two kernel supports on the thin side
 SUPPORTS = 4  # thickness of the frozen ends in supports of the thin side
-STUDY = Study({"nx": (225, 450, 900, 1800), "kernel": ("cubic", "quintic", "wendland_c4")})  # for `spmhd cost`
+STUDY = Study(  # for `spmhd cost`
+    {
+        "nx": (225, 450, 900, 1800),
+        "kernel": ("cubic", "quintic", "wendland_c4"),
+        "scheme": ("standard", "godunov"),
+    }
+)
 
 
 def scenes(nx: int = 450, dim: Literal[1, 2] = 1, t_end: float = 0.2, scheme: Scheme = "standard"):
