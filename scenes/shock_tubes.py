@@ -49,11 +49,7 @@ from taichi_spmhd.terms import (
 HALF = 0.5  # the waves stay within |x| < 1/2
 END = 0.1  # thickness of the frozen ends, which move with their gas
 STUDY = Study(  # for `spmhd cost`; in 1-D there is nothing to clean
-    {
-        "nx": (400, 800, 1600),
-        "kernel": ("cubic", "quintic", "wendland_c4"),
-        "scheme": ("standard", "godunov"),
-    },
+    {"nx": (400, 800, 1600), "kernel": ("cubic", "quintic", "wendland_c4")},
     variants=("without cleaning",),
 )
 COLUMNS = {"rho": 0, "P": 1, "v_x": 2, "v_y": 3, "v_z": 4, "B_y": 5, "B_z": 6}  # of a state
