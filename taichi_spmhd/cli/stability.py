@@ -11,7 +11,7 @@ def add(commands, common) -> None:
     size.add_argument("--full", action="store_true", help="all values and presets, and beyond until something fails")
     parser.add_argument("--only", nargs="+", action="extend", metavar="NAME", help="only these cases")
     parser.add_argument(
-        "--preset", nargs="+", action="extend", metavar="NAME", help="only these of textbook, usual, robust"
+        "--preset", nargs="+", action="extend", metavar="NAME", help="only these of textbook, usual, robust, godunov"
     )
     parser.add_argument("--out", metavar="DIR", help="folder for the files (default out/stability)")
     parser.set_defaults(command=main)
