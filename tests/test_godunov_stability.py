@@ -9,6 +9,8 @@ from taichi_spmhd.stability.battery import Task
 from taichi_spmhd.stability.trial import SOUND
 from taichi_spmhd.terms import DivBSource
 
+TASKS = [task for task in QUICK if task.case.name != "schemes"]  # which asks for what this scheme replaces
+
 
 @pytest.fixture(scope="module")
 def growth():
@@ -41,7 +43,7 @@ def test_to_first_order_more_is_needed(growth):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("task", QUICK, ids=lambda task: f"{task.case.name} {task.value}")
+@pytest.mark.parametrize("task", TASKS, ids=lambda task: f"{task.case.name} {task.value}")
 def test_a_hard_case_stays_sound_in_godunovs_scheme(task):
     row = Task(task.case, "godunov", task.value, task.nx).make()
     assert row["verdict"] == SOUND, failing(row)
