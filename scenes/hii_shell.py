@@ -58,19 +58,17 @@ def scenes(
     finer = finer or FINER[dim]
     if not (nx >= 24 and 1 <= finer <= 200 and 2 <= c_hot <= 50):
         raise InputError("hii_shell: nx must be at least 24, finer lie in 1..200 and c_hot in 2..50")
-    hot, few = (P_HOT / c_hot**2, c_hot), round(nx * X0 / LENGTH)
-    lattice, across = (line, ()) if dim == 1 else (hexagonal, ((0.0, np.sqrt(0.75) * LENGTH / nx * ROWS),))
-    warm, cold = lattice(((0.0, X0), *across), few * finer), lattice(((X0, LENGTH), *across), nx - few)
-    box = as_box(((0.0, LENGTH), *across))
-    shares = np.repeat([X0 / len(warm), (LENGTH - X0) / len(cold)], [len(warm), len(cold)])
+    hot = (P_HOT / c_hot**2, c_hot)
+    box, sides = tube(nx, finer, dim)
+    shares = np.repeat([X0 / len(sides[0]), (LENGTH - X0) / len(sides[1])], [len(side) for side in sides])
 
     def start(x):
-        rho, cs = (np.where(x[:, 0] < X0, *sides) for sides in zip(hot, COLD, strict=True))
+        rho, cs = (np.where(x[:, 0] < X0, *both) for both in zip(hot, COLD, strict=True))
         return {"rho": rho, "cs": cs, "mass": rho * shares * box.volume / LENGTH}
 
     by_volume = Scene(
         box=box,
-        positions=np.concatenate([warm, cold]),
+        positions=np.concatenate(sides),
         start=start,
         eos=LocallyIsothermal(),
         density=SumVolume(),
@@ -86,3 +84,11 @@ def scenes(
         "density by mass": by_volume.but(density=SumMass(), stepper=Heun()),  # less is lost
     }
     return in_scheme(variants, scheme, slope="own", kernel=QuinticSpline())
+
+
+def tube(nx: int, finer: int, dim: int) -> tuple:
+    """The box, and the positions on the hot and on the cold side."""
+    few, across = round(nx * X0 / LENGTH), () if dim == 1 else ((0.0, np.sqrt(0.75) * LENGTH / nx * ROWS),)
+    lattice = line if dim == 1 else hexagonal
+    sides = lattice(((0.0, X0), *across), few * finer), lattice(((X0, LENGTH), *across), nx - few)
+    return as_box(((0.0, LENGTH), *across)), sides

@@ -49,10 +49,7 @@ def scenes(
 ):
     """amplitude: of the pulse in v_x; width: exp(-(x/w)^2), w in smoothing lengths; beta = 2P/B^2; length: w itself,
     where it is to stay the same at every nx (0: take width)."""
-    if not (beta > 0 and width > 0 and length >= 0):
-        raise InputError(
-            f"beta = {beta:g}, width = {width:g} must be positive, for example beta=0.1 width=3; length >= 0"
-        )
+    check(beta, width, length)
     dx, kernel = 2 * HALF / nx, QuinticSpline()
     box = ((-HALF, HALF), (0.0, ROWS * sqrt(0.75) * dx))
     w = length or width * kernel.h_fact * sqrt(sqrt(0.75)) * dx  # h = h_fact sqrt(m/rho) of a hexagonal lattice
@@ -74,11 +71,18 @@ def scenes(
         measure="v_x",
         picture=Picture("v", axis=0, limits=(-0.6 * colours, 1.1 * colours)),
     )
-    variants = {
-        "xi = 0": bare.plus(Viscosity()),
-        "xi = 1/2": bare.plus(DivBSource(xi=0.5)),
-        "xi = 1": bare.plus(DivBSource(xi=1.0)),
-    }
-    if scheme == "godunov":
-        del variants["xi = 0"]  # clumps until its heat has run out
-    return in_scheme(variants, scheme)
+    return in_scheme(variants(bare, scheme), scheme)
+
+
+def check(beta: float, width: float, length: float) -> None:
+    """Raises InputError for a pulse that cannot be."""
+    if not (beta > 0 and width > 0 and length >= 0):
+        raise InputError(
+            f"beta = {beta:g}, width = {width:g} must be positive, for example beta=0.1 width=3; length >= 0"
+        )
+
+
+def variants(bare: Scene, scheme: Scheme) -> dict:
+    """With each xi; Godunov's scheme without xi = 0, which clumps until its heat has run out."""
+    cures = {"xi = 1/2": bare.plus(DivBSource(xi=0.5)), "xi = 1": bare.plus(DivBSource(xi=1.0))}
+    return cures if scheme == "godunov" else {"xi = 0": bare.plus(Viscosity()), **cures}

@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 from test_godunov_conservation import ROUND_OFF, scene, wandered
+from test_godunov_walls import apart
 from test_godunov_waves import HEX
 
 from taichi_spmhd import (
     Boundary,
     InputError,
     Open,
-    Reflecting,
     Scene,
     Simulation,
     Thermal,
@@ -20,12 +20,10 @@ from taichi_spmhd import (
     square,
     with_scheme,
 )
-from taichi_spmhd.boundary import everywhere
 from taichi_spmhd.density import SumMass
 from taichi_spmhd.diagnostics.errors import errors
 from taichi_spmhd.diagnostics.ledger import drifts
-from taichi_spmhd.lattice import cubic
-from taichi_spmhd.terms import DivBSource, GodunovHydro, GodunovMHD, Induction, Pressure, Stress
+from taichi_spmhd.terms import DivBSource, GodunovHydro, GodunovMHD, Induction
 
 GAS = (GodunovHydro(areas="corrected"),)
 MHD = (GodunovMHD(areas="corrected"), Induction())
@@ -128,58 +126,16 @@ def test_plain_areas_sum_to_less_and_are_less_accurate():
     assert slope > 0.13  # measured .141
 
 
-SIGNS = {2: [(1, 1), (-1, 1), (1, -1), (-1, -1)]}
-SIGNS[3] = [(*two, z) for z in (1, -1) for two in SIGNS[2]]
-
-
-def mirrored(x):
-    """Waves between the walls and their mirror images outside: components along a flipped axis change their sign."""
-    a, b, c = np.column_stack([np.abs(x), 0.4 * np.ones(len(x))])[:, :3].T
-    flip = np.ones((len(x), 3))
-    flip[:, : x.shape[1]] = np.sign(x)
-    v = flip * np.stack([np.sin(3 * a + b), np.cos(2 * b + a), a * b + c], axis=1)
-    B = flip * np.stack([1 + 0.3 * np.sin(2 * b), 0.5 + 0.3 * np.cos(3 * a), 0.2 + a - b + c], axis=1)
-    return {"rho": 1.0, "P": 1 + 0.5 * np.sin(3 * a) * np.cos(2 * b + c), "v": v, "B": B}
-
-
-def after(box, x, boundary, magnetic, steps, dt) -> dict:
-    terms = (Stress(), Induction(), DivBSource(0.5)) if magnetic else (Pressure(),)
-
-    def start(x):
-        return {name: value for name, value in mirrored(x).items() if magnetic or name != "B"}
-
-    made = Scene(box, x, start, terms, boundary=boundary, density=SumMass(tolerance=1e-12))
-    with Simulation(with_scheme(made, "godunov", areas="corrected")) as sim:
-        for _ in range(steps):
-            sim.step(dt)
-        return sim.columns()
-
-
-def apart(dim, magnetic, steps, dt) -> dict:
-    """The largest differences between a gas within walls and the same gas with its mirror images, after some steps."""
-    box, lattice, n = ((0.0, 1.0),) * dim, {2: square, 3: cubic}[dim], {2: 12, 3: 8}[dim]
-    x = np.clip(jitter(lattice(box, n), box, 0.2, seed=1), 0.01, 0.99)
-    walls = Boundary(**dict.fromkeys("xyz"[:dim], Reflecting()))
-    walled = after(box, x, walls, magnetic, steps, dt)
-    images = np.concatenate([x * signs for signs in SIGNS[dim]])
-    whole = after(((-1.0, 1.0),) * dim, images, everywhere(), magnetic, steps, dt)
-    return {
-        name: np.abs(walled[name] - whole[name][: len(x)]).max()
-        for name in ("x", "v", "P", "rho", "B")
-        if name in whole
-    }
-
-
 @pytest.mark.parametrize("magnetic", [False, pytest.param(True, marks=pytest.mark.slow)])
 def test_walls_do_what_a_mirrored_gas_does(magnetic):
     # the same numbers in another order: measured 2e-15; rows of A^-1 that are mirrored as vectors give .24
-    assert max(apart(2, magnetic, steps=3, dt=0.005).values()) < 1e-11
+    assert max(apart(2, magnetic, steps=3, areas="corrected").values()) < 1e-11
 
 
 @pytest.mark.slow
 def test_walls_in_three_dimensions_too():
     # a gas: with B the frames of mirrored pairs (across.py) are no mirror images, and limiters see that
-    assert max(apart(3, False, steps=2, dt=0.001).values()) < 1e-11  # measured 1.1e-13
+    assert max(apart(3, False, steps=2, dt=0.001, areas="corrected").values()) < 1e-11  # measured 1.1e-13
 
 
 def cloud(dim: int):

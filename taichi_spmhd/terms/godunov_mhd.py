@@ -28,8 +28,8 @@ class GodunovMHD(Godunov):
     the pair's axis alone an Alfven wave in two dimensions would grow). Pairs that approach faster than c/C_shock are
     treated to first order: without that B_n jumps by a quarter behind strong shocks. areas="corrected": n = -a/|a| and
     -|a| in place of e and Gi + Gj where v and E change, a = A_i^-1 e Gi + A_j^-1 e Gj with A of the gradients
-    (godunov/areas.py); best with h_fact 1.0 and C_shock=1. Needs stepper=TimeCentred() and Induction(), which carries
-    B; best with SumMass(slope="mean") and, with plain areas, 20 or more neighbours (h_fact 1.2 in 2-D).
+    (godunov/areas.py); best with few neighbours (schemes.STIRRED). Needs stepper=TimeCentred() and Induction(), which
+    carries B; best with SumMass(slope="mean") and, with plain areas, 20 or more neighbours (h_fact 1.2 in 2-D).
     """
 
     reads = {"P": real, "cs": real, "rho": real, "v": vec3, "B": vec3}
@@ -58,9 +58,8 @@ class GodunovMHD(Godunov):
         return ti.Struct(rho=rho, P=P + 0.5 * b2, b2=b2, v=v.x, root=ti.sqrt(rho), v_perp=v, B_perp=B)
 
     @traced
-    def sides(self, i, j, w, n, keep):
+    def sides(self, i, j, w, axes, keep):
         """R and L: i and j."""
-        axes = (n, *across(n))
         pressures = self.pressures(i, j, w, keep)
         v, B = (self.vectors(name, i, j, w, axes, keep) for name in self.fields)
         return tuple(self.side(*four) for four in zip((i, j), pressures, v, B, strict=True))
@@ -68,11 +67,11 @@ class GodunovMHD(Godunov):
     @ti.func
     def pair(self, i, j, w, now):
         n, F = self.face(i, j, w)
-        R, L = self.sides(i, j, w, n, self.kept(i, j, w))
+        first, second = across(n)
+        R, L = self.sides(i, j, w, (n, first, second), self.kept(i, j, w))
         along_i, along_j = self.field(i).dot(n), self.field(j).dot(n)
         mean = 0.5 * (along_i + along_j)
         P, vn = self.riemann.star(L, R)
-        first, second = across(n)
         B1, v1 = crossed(L.root, R.root, sign(mean), L.v_perp.y, R.v_perp.y, L.B_perp.y, R.B_perp.y)
         B2, v2 = crossed(L.root, R.root, sign(mean), L.v_perp.z, R.v_perp.z, L.B_perp.z, R.B_perp.z)
         past = vn * n + v1 * first + v2 * second - i.v
